@@ -10,11 +10,8 @@
 //! polynomial (round corners of a flat tool). Arcs that stay level are as exact: the nearest place of the arc counts. Others,
 //! and helices, are cut into chords that leave them by less than [`CHORD`].
 
-use std::ops::Range;
-
 use crate::band::{Band, Form};
 use crate::level_arc::level_arc;
-use crate::map::Grid;
 use crate::moves::Way;
 use crate::surface::{
     Across, Around, Ball, BallAt, Cells, Cone, ConeAt, Flat, Level, LevelRound, Round, RoundAt, Sloped,
