@@ -25,7 +25,6 @@ pub mod plot;
 mod print_after;
 pub mod project;
 pub mod provenance;
-mod recognised;
 pub mod registry;
 mod report;
 pub mod review;

@@ -28,7 +28,7 @@ use crate::files::{self, Destination, arrow};
 use crate::milling::{self, Voice};
 use crate::print_after::print_after;
 use crate::provenance::why;
-use crate::recognised::{doubt_dialect, recognise_all};
+use crate::registry::recognised::{doubt_dialect, recognise_all};
 use crate::registry::{self, DialectRegistry};
 use crate::report::tell;
 use crate::target_options::TargetOptions;

@@ -25,8 +25,8 @@ use crate::args::Translate;
 use crate::args::typed::Eol;
 use crate::machines::agreed;
 use crate::project::{InForce, Settled, Sides, Stated, settle};
-use crate::recognised::INTO_WHAT;
 use crate::registry::DialectRegistry;
+use crate::registry::recognised::INTO_WHAT;
 use crate::{files, m_codes};
 
 /// What all programs of a command have in common.

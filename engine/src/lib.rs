@@ -18,6 +18,7 @@
 mod colours;
 #[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
 pub mod interface;
+mod program;
 pub mod request;
 mod simulate;
 mod verbs;

@@ -19,8 +19,8 @@ use ncc_machines::Profile;
 use ncc_simulate::{Fixture, HeightMap, Stock};
 use ncc_time::Model;
 
+use crate::program::{Files, Outputs, profile, side};
 use crate::request::{One, Seek, Simulate};
-use crate::verbs::{Files, Outputs, profile, side};
 
 /// The program that was cut last.
 pub(crate) type Kept = Option<Box<CutProgram>>;

@@ -1,17 +1,15 @@
 //! Requests done: each verb is a few calls of the driver, and outputs by name.
 
-use std::collections::BTreeMap;
-use std::io::{self, Cursor};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::io;
+use std::path::PathBuf;
 
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_backends::Layout;
-use ncc_dialects::{Dialect, Settings};
+use ncc_dialects::Settings;
 use ncc_driver::check::{self, told};
 use ncc_driver::guess::recognise;
 use ncc_driver::job::initial_variables::{self, InitialVariables};
-use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::options::choose;
 use ncc_driver::job::{Job, file_per_tool};
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
@@ -25,26 +23,19 @@ use ncc_driver::review::verify::document::{Call, Document, Word};
 use ncc_driver::review::verify::hashes::{self, Named};
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
-use ncc_driver::source::include_path::{Library, load_subprograms};
-use ncc_driver::source::{Source, not_milling};
+use ncc_driver::source::include_path::load_subprograms;
 use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
 use ncc_driver::time::payload::{Header, Payload, Shape};
 use ncc_driver::translate::{rewrite, tools_by_name, translate};
-use ncc_ir::canon::Units;
 use ncc_ir::diag::Verdict;
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 use ncc_time::Model;
 
 use crate::colours;
-use crate::request::{self, Colours, Explain, One, Request, Translate, Two};
+use crate::program::{Files, InMemory, Outputs, named, open, pairs, profile, settings, side};
+use crate::request::{Colours, Explain, One, Request, Translate, Two};
 use crate::simulate::{self, Kept};
-
-/// Outputs by their names.
-pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
-
-/// Files by their names.
-pub(crate) type Files = BTreeMap<String, Vec<u8>>;
 
 /// Does a request.
 pub(crate) fn run(request: &str, files: &Files, kept: &mut Kept) -> (u8, Outputs) {
@@ -100,47 +91,6 @@ fn verb(
     }
 }
 
-/// Called programs among the files of an engine, all in one folder.
-struct InMemory<'f>(&'f Files);
-
-impl Library for InMemory<'_> {
-    fn list(&self, _folder: &Path) -> Vec<PathBuf> {
-        self.0.keys().map(PathBuf::from).collect()
-    }
-
-    fn bytes(&self, path: &Path) -> Option<u64> {
-        self.0.get(path.to_str()?).map(|text| text.len() as u64)
-    }
-
-    fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>> {
-        let text = path.to_str().and_then(|name| self.0.get(name)).ok_or(io::ErrorKind::NotFound)?;
-        Ok(text[..text.len().min(usize::try_from(most).unwrap_or(usize::MAX))].to_vec())
-    }
-}
-
-/// A file as a source; one that is for no mill is refused, unless the user says that it is for one.
-fn open(name: &str, milling: bool, files: &Files, messages: &mut Buffer) -> Result<Source, Problem> {
-    let text = files.get(name).ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
-    let mut source = Source::of(Cursor::new(text.clone()), name);
-    let Some(refusal) = not_milling::refusal(&mut source, milling)? else { return Ok(source) };
-    refusal.print(messages).map_err(|e| Problem::file("read", name, &e))?;
-    // It has been told.
-    Err(Problem { exit: Exit::Refused, message: String::new(), help: Vec::new() })
-}
-
-/// A machine's profile by the name of one that comes with ncc, or of a file.
-pub(crate) fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Profile>>, Problem> {
-    let Some(name) = name else { return Ok(None) };
-    if let Some(profile) = ncc_machines::find(name) {
-        return Ok(Some(Arc::new(profile.clone())));
-    }
-    let text = files.get(name).and_then(|text| std::str::from_utf8(text).ok());
-    let text = text.ok_or_else(|| RequestFault::NoMachine(name.to_owned()))?;
-    let profile = Profile::parse(text, &ncc_dialects::builtin);
-    let wrong = |wrong: Vec<_>| RequestFault::Profile(name.to_owned(), wrong.len()).into();
-    profile.map(|profile| Some(Arc::new(profile))).map_err(wrong)
-}
-
 /// The texts that a dialect is made of: its own, then its base's and so on.
 fn texts(id: &str) -> Vec<Named<'static>> {
     let mut texts = Vec::new();
@@ -152,48 +102,6 @@ fn texts(id: &str) -> Vec<Named<'static>> {
         next = dialect.base.as_deref().and_then(ncc_dialects::builtin);
     }
     texts
-}
-
-/// A dialect by its name; of no name and of `auto`, none.
-fn named(id: Option<&str>) -> Result<Option<&'static Dialect>, Problem> {
-    let dialect = |id: &str| {
-        let none = || RequestFault::NoDialect(id.to_owned(), ncc_dialects::builtin_ids().collect()).into();
-        ncc_dialects::builtin(id).ok_or_else(none)
-    };
-    id.filter(|id| *id != "auto").map(dialect).transpose()
-}
-
-/// The dialect of a source, with what was chosen of it; and others that explain it as well.
-fn settings(
-    source: &mut Source,
-    from: Option<&str>,
-    machines: &Machines,
-    options: &BTreeMap<String, String>,
-    units: Option<request::Units>,
-) -> Result<(Settings, Vec<&'static Dialect>), Problem> {
-    let own = named(from)?.or(machines.from.as_ref().map(|profile| profile.dialect));
-    let (dialect, rivals) = match own {
-        Some(dialect) => (dialect, Vec::new()),
-        None => {
-            let all: Vec<_> = ncc_dialects::builtins().collect();
-            let found = recognise(source, &all)?;
-            (found.dialect, found.rivals)
-        }
-    };
-    let mut settings = choose(machines.settings(Whose::From, dialect), &pairs(options))?;
-    state_units(&mut settings, units.map(unit))?;
-    Ok((settings, rivals))
-}
-
-fn pairs(options: &BTreeMap<String, String>) -> Vec<(String, String)> {
-    options.iter().map(|(name, value)| (name.clone(), value.clone())).collect()
-}
-
-fn unit(units: request::Units) -> Units {
-    match units {
-        request::Units::Mm => Units::Mm,
-        request::Units::Inch => Units::Inch,
-    }
 }
 
 fn verdicts(names: &[String]) -> Result<Vec<Verdict>, Problem> {
@@ -276,21 +184,6 @@ fn coloured(asked: &Colours, files: &Files) -> Result<(Exit, Outputs), Problem> 
     let document =
         colours::document(Settings::new(dialect), &mut source, asked.first, asked.lines).map_err(cannot)?;
     Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
-}
-
-/// A program that is executed.
-pub(crate) fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
-    let mut source = open(&one.file, one.assume_milling, files, messages)?;
-    let profile = profile(one.machine.as_deref(), files)?;
-    let machines = Machines { from: profile.clone(), to: profile };
-    let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;
-    // What a profile states of its control holds for programs in that control's language.
-    let own = machines.from.as_ref().is_some_and(|profile| profile.dialect.id == from.dialect.id);
-    load_subprograms(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
-    source.rewind()?;
-    let mut side = Side::of(source, from, if own { machines } else { Machines::default() }, None);
-    side.job.rivals = rivals;
-    Ok(side)
 }
 
 fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {

@@ -77,6 +77,92 @@ fn a_certificate_names_what_it_rests_on() {
     );
 }
 
+const SLOT: &str = "%\nO1\nG21 G17 G90 G94 G54\nT1 M6\nS3000 M3\nG0 X10. Y10. Z5.\nG1 Z-2. F200.\nX50. F600.\nG2 X50. Y20. \
+                    I0. J5.\nG0 Z5.\nM30\n%\n";
+
+/// The numbers of a column.
+fn column(path: &[u8], name: &str) -> Vec<f64> {
+    let end = path.iter().position(|byte| *byte == b'\n').expect("a line") + 1;
+    assert_eq!(end % 8, 0, "columns begin where their type may");
+    let head: serde_json::Value = serde_json::from_slice(&path[..end]).expect("JSON");
+    let pieces = head["pieces"].as_u64().expect("a count") as usize;
+    let columns = head["columns"].as_array().expect("columns");
+    let own = columns.iter().find(|own| own["name"] == name).expect("a column");
+    let at = end + own["offset"].as_u64().expect("a place") as usize;
+    let of = |size: usize| path[at..at + size * pieces].chunks_exact(size);
+    match own["type"].as_str().expect("a type") {
+        "f64" => of(8).map(|b| f64::from_le_bytes(b.try_into().expect("eight"))).collect(),
+        "f32" => of(4).map(|b| f64::from(f32::from_le_bytes(b.try_into().expect("four")))).collect(),
+        "u32" => of(4).map(|b| f64::from(u32::from_le_bytes(b.try_into().expect("four")))).collect(),
+        "u16" => of(2).map(|b| f64::from(u16::from_le_bytes(b.try_into().expect("two")))).collect(),
+        "u8" => of(1).map(|b| f64::from(b[0])).collect(),
+        other => panic!("a column of {other}"),
+    }
+}
+
+#[test]
+fn moves_come_as_columns() {
+    let (code, engine) = done(&[("a.nc", SLOT)], r#"{ "verb": "path", "file": "a.nc", "from": "fanuc" }"#);
+    assert_eq!(code, 0, "{}", text(&engine, "messages"));
+    let path = engine.output("path").expect("moves");
+    let (kinds, moves) = (column(path, "kind"), column(path, "move"));
+    // The first rapid, two cuts, half a circle in 48 pieces, the way up.
+    assert_eq!(kinds.iter().filter(|kind| **kind == 2.0).count(), 48);
+    assert_eq!((kinds[0], kinds[1], *kinds.last().expect("the last")), (0.0, 1.0, 0.0));
+    assert_eq!((moves[0], *moves.last().expect("the last")), (1.0, 5.0));
+    let [x, y, z] = ["x1", "y1", "z1"].map(|name| column(path, name));
+    // The middle of the half circle.
+    assert!((x[2 + 24] - 45.0).abs() < 1e-4 && (y[2 + 24] - 15.0).abs() < 0.01, "{} {}", x[26], y[26]);
+    assert!(z[1..51].iter().all(|z| *z == -2.0));
+    let (begins, ends) = (column(path, "t0"), column(path, "t1"));
+    assert!(begins.iter().zip(&ends).all(|(begin, end)| begin <= end));
+    assert!(ends.windows(2).all(|pair| pair[0] <= pair[1]));
+    assert!(
+        column(path, "line")[1] == 7.0
+            && column(path, "feed")[1] == 200.0
+            && column(path, "speed")[1] == 3000.0
+    );
+}
+
+#[test]
+fn a_part_is_shown_after_any_move() {
+    let request = r#"{ "verb": "simulate", "file": "a.nc", "from": "fanuc", "stock": "X0:60 Y0:30 Z-10:0",
+        "tools": ["1=flat,10"], "cells": 60 }"#;
+    let (code, mut engine) = done(&[("a.nc", SLOT)], request);
+    assert_eq!(code, 0, "{}", text(&engine, "messages"));
+    let document: serde_json::Value =
+        serde_json::from_slice(engine.output("document").expect("a document")).expect("JSON");
+    // Counted over places of 0.05 mm: 1192.8 mm³. A cell is 1 mm here.
+    let removed = document["programs"][0]["tools"][0]["removed"].as_f64().expect("a volume");
+    assert!((removed - 1192.8).abs() < 12.0, "{removed}");
+    let heights = |engine: &Engine| -> Vec<f32> {
+        let bytes = engine.output("heights").expect("heights");
+        bytes.chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().expect("four"))).collect()
+    };
+    let end = heights(&engine);
+    assert_eq!(end.len(), 60 * 30);
+    let low = |all: &[f32]| all.iter().filter(|height| **height == -2.0).count();
+    let at = |engine: &mut Engine, moves: usize| {
+        let request = format!(r#"{{ "verb": "seek", "moves": {moves} }}"#);
+        assert_eq!(engine.run(&request), 0);
+        heights(engine)
+    };
+    let [start, plunged, slot] = [0, 2, 3].map(|moves| at(&mut engine, moves));
+    assert_eq!(low(&start), 0);
+    assert!(low(&plunged) > 60 && low(&slot) > low(&plunged) && low(&end) > low(&slot));
+    assert_eq!(at(&mut engine, 1_000_000), end);
+    assert_eq!(engine.run(r#"{ "verb": "stl" }"#), 0);
+    assert!(engine.output("stl").expect("a body").len() > 84);
+    engine.clear();
+    assert_eq!(engine.run(r#"{ "verb": "seek", "moves": 0 }"#), 2);
+    assert!(text(&engine, "messages").contains("no program was cut"));
+    for wrong in [r#""stock": "100x60""#, r#""tools": ["1=t-slot,10"]"#, r#""fixtures": ["none.stl"]"#] {
+        let request = format!(r#"{{ "verb": "simulate", "file": "a.nc", "from": "fanuc", {wrong} }}"#);
+        let (code, engine) = done(&[("a.nc", SLOT)], &request);
+        assert!(code > 1, "{wrong}: {}", text(&engine, "messages"));
+    }
+}
+
 #[test]
 fn words_have_colours_whatever_they_mean() {
     let coloured = |text: &str, request: &str| {

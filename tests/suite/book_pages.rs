@@ -170,7 +170,7 @@ fn each_dialect_has_a_page_in_the_book() {
 }
 
 /// Hundreds of the codes of messages, with the name of their page and what they are about.
-const MESSAGES: [(&str, &str, &str); 8] = [
+const MESSAGES: [(&str, &str, &str); 9] = [
     ("NC01", "text", "the text of a program"),
     ("NC02", "meaning", "what a block means"),
     ("NC03", "assumptions", "assumptions and questions"),
@@ -179,6 +179,7 @@ const MESSAGES: [(&str, &str, &str); 8] = [
     ("NC06", "verification", "verification"),
     ("NC07", "files", "your own files: dialects, profiles, `ncc.toml`"),
     ("NC08", "checks", "checks"),
+    ("NC09", "simulation", "simulation"),
 ];
 
 #[test]

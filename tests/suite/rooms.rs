@@ -36,6 +36,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ncc-machines",
             "ncc-passes",
             "ncc-plot",
+            "ncc-simulate",
             "ncc-diff",
             "ncc-time",
         ],

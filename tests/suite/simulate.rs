@@ -26,6 +26,10 @@ use crate::schema;
 /// Cells along the longer side of a part: coarse, because each height is exact at the centre of its cell.
 const CELLS: usize = 96;
 
+/// Programs that are no judgement of their ports: the target writes places of the machine as computed numbers, which nobody
+/// can tell from places of the part.
+const OF_MACHINE: [&str; 1] = ["linuxcnc/dressing.ngc"];
+
 /// How far heights of one part may be apart, mm: targets round to a thousandth of a millimetre, arcs by both ends.
 const APART: f64 = 0.01;
 
@@ -75,6 +79,9 @@ fn a_port_makes_the_same_part() {
             failures.add(&what, wrong.join("\n"));
         }
         alarms += boxes.len();
+        if OF_MACHINE.contains(&what.as_str()) {
+            continue;
+        }
         // Each program has another target.
         let targets = DIALECTS.into_iter().cycle().skip(n).take(DIALECTS.len());
         let ports = targets.filter(|to| *to != program.dialect).filter_map(|to| {

@@ -60,6 +60,16 @@ fn bull_nose(bencher: Bencher, cells: f64) {
     run(bencher, &Shape::BullNose { corner: cells * 0.02 }, cells);
 }
 
+/// The state after a move by chance, of 200,000 with a tool of so many cells in radius.
+#[divan::bench(sample_count = 60, sample_size = 1, args = [2.5, 10.0])]
+fn seek(bencher: Bencher, cells: f64) {
+    let mut cut = simulation(&Shape::Flat, cells);
+    let moves = moves();
+    (0..10).for_each(|_| moves.iter().for_each(|own| cut.push(*own)));
+    let mut rng = fastrand::Rng::with_seed(5);
+    bencher.bench_local(|| cut.seek(rng.usize(..cut.moves().len())));
+}
+
 fn main() {
     divan::main();
 }

@@ -1,25 +1,63 @@
 //! The states of a map after any move, in both directions.
 //!
-//! Every [`STRIDE`] moves what has changed is kept, as it was and as it is. From one such place to another, those are put
-//! in; from there, at most so many moves are made again.
+//! Every [`STRIDE`] moves it is kept what has changed since the last time, and every [`KEY`] times the whole map. From the
+//! whole map before a place, the changes up to it are put in; from there, at most so many moves are made again.
 
 use crate::map::{HeightMap, TILE};
 
 /// Moves from one place to the next that can be gone to at once.
 pub(crate) const STRIDE: usize = 5_000;
 
-/// A cell that has changed.
-#[derive(Clone, Copy, Debug)]
-struct Change {
-    cell: u32,
-    heights: [f32; 2],
-    last: [u32; 2],
+/// From one whole map to the next, so many strides.
+const KEY: usize = 32;
+
+/// Changes of a stride.
+#[derive(Clone, Debug, Default)]
+struct Changes {
+    /// First cell and how many behind each other have changed.
+    runs: Vec<(u32, u16)>,
+    /// Their heights.
+    heights: Vec<f32>,
+    /// The moves that cut them last, from the first of the stride.
+    last: Vec<u16>,
+}
+
+impl Changes {
+    /// Adds a cell, behind those that are there.
+    fn push(&mut self, cell: usize, height: f32, last: u16) {
+        match self.runs.last_mut() {
+            Some((first, count)) if *first as usize + usize::from(*count) == cell && *count < u16::MAX => {
+                *count += 1
+            }
+            _ => self.runs.push((cell as u32, 1)),
+        }
+        self.heights.push(height);
+        self.last.push(last);
+    }
+
+    /// Puts them into a map; `before` moves were made before the stride.
+    fn put_into(&self, map: &mut HeightMap, before: usize) {
+        let mut at = 0;
+        for (first, count) in &self.runs {
+            let (first, count) = (*first as usize, usize::from(*count));
+            map.heights[first..first + count].copy_from_slice(&self.heights[at..at + count]);
+            let last = map.last[first..first + count].iter_mut().zip(&self.last[at..at + count]);
+            last.for_each(|(own, last)| *own = (before + usize::from(*last) + 1) as u32);
+            at += count;
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<(u32, u16)>() * self.runs.len() + 4 * self.heights.len() + 2 * self.last.len()
+    }
 }
 
 /// What has changed in a map from stride to stride.
 #[derive(Clone, Debug)]
 pub(crate) struct History {
-    strides: Vec<Vec<Change>>,
+    strides: Vec<Changes>,
+    /// The map before strides 0, [`KEY`], …
+    keys: Vec<HeightMap>,
     /// The map at the last of these places that is not behind the one that is shown.
     base: HeightMap,
     /// How many strides that is from the start.
@@ -33,7 +71,14 @@ pub(crate) struct History {
 impl History {
     pub(crate) fn new(map: &HeightMap) -> History {
         let [across, along] = map.grid.cells.map(|cells| cells.div_ceil(TILE));
-        History { strides: Vec::new(), base: map.clone(), at: 0, dirty: vec![false; across * along], across }
+        History {
+            strides: Vec::new(),
+            keys: vec![map.clone()],
+            base: map.clone(),
+            at: 0,
+            dirty: vec![false; across * along],
+            across,
+        }
     }
 
     /// Cells of these columns and rows may change.
@@ -59,40 +104,47 @@ impl History {
 
     /// Keeps the state of a map as that of the next stride.
     pub(crate) fn keep(&mut self, map: &HeightMap) {
-        let mut changes = Vec::new();
+        let mut changes = Changes::default();
+        let before = self.strides.len() * STRIDE;
         self.each_dirty(|base, cells| {
             for cell in cells {
-                let heights = [base.heights[cell], map.heights[cell]];
-                let last = [base.last[cell], map.last[cell]];
-                if last[0] != last[1] {
-                    changes.push(Change { cell: cell as u32, heights, last });
-                    base.heights[cell] = heights[1];
-                    base.last[cell] = last[1];
+                let last = map.last[cell];
+                if base.last[cell] != last {
+                    changes.push(cell, map.heights[cell], (last as usize - before - 1) as u16);
+                    base.heights[cell] = map.heights[cell];
+                    base.last[cell] = last;
                 }
             }
         });
-        changes.shrink_to_fit();
+        changes.runs.shrink_to_fit();
+        changes.heights.shrink_to_fit();
+        changes.last.shrink_to_fit();
         self.strides.push(changes);
         self.at += 1;
+        if self.at.is_multiple_of(KEY) {
+            self.keys.push(self.base.clone());
+        }
     }
 
     /// Puts a map into the state of a stride.
     pub(crate) fn show(&mut self, map: &mut HeightMap, stride: usize) {
-        self.each_dirty(|base, cells| {
-            map.heights[cells.clone()].copy_from_slice(&base.heights[cells.clone()]);
-            map.last[cells.clone()].copy_from_slice(&base.last[cells]);
-        });
-        while self.at != stride {
-            let forward = self.at < stride;
-            let which = if forward { self.at } else { self.at - 1 };
-            for change in &self.strides[which] {
-                let cell = change.cell as usize;
-                for own in [&mut *map, &mut self.base] {
-                    own.heights[cell] = change.heights[usize::from(forward)];
-                    own.last[cell] = change.last[usize::from(forward)];
-                }
+        let key = stride / KEY;
+        if stride < self.at || key * KEY > self.at {
+            self.base.clone_from(&self.keys[key]);
+            map.clone_from(&self.base);
+            self.dirty.fill(false);
+            self.at = key * KEY;
+        } else {
+            self.each_dirty(|base, cells| {
+                map.heights[cells.clone()].copy_from_slice(&base.heights[cells.clone()]);
+                map.last[cells.clone()].copy_from_slice(&base.last[cells]);
+            });
+        }
+        while self.at < stride {
+            for own in [&mut *map, &mut self.base] {
+                self.strides[self.at].put_into(own, self.at * STRIDE);
             }
-            self.at = if forward { self.at + 1 } else { self.at - 1 };
+            self.at += 1;
         }
     }
 
@@ -113,6 +165,7 @@ impl History {
 
     /// Bytes that it takes.
     pub(crate) fn bytes(&self) -> usize {
-        self.strides.iter().map(|all| all.len() * size_of::<Change>()).sum()
+        let map = self.base.grid.len() * (size_of::<f32>() + size_of::<u32>());
+        self.strides.iter().map(Changes::bytes).sum::<usize>() + map * (self.keys.len() + 1)
     }
 }

@@ -17,12 +17,14 @@
 mod alarm;
 mod band;
 mod history;
+mod level_arc;
 mod map;
 mod mesh;
 mod moves;
 mod picture;
 mod simulation;
 mod stock;
+mod surface;
 mod sweep;
 mod tool;
 

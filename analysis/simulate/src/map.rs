@@ -33,16 +33,20 @@ impl Grid {
     }
 
     /// The cells of which the centre lies between two places of an axis; empty where none does.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn between(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
-        // Integers round down: `f64::floor` is a call on some machines. One cell more, so that none is below zero.
+        // Integers round down: `f64::floor` is a call on some machines, and so is a number without a sign. One cell more, so
+        // that none is below zero.
         let most = self.cells[axis] as f64 + 1.0;
-        let place = |at: f64| ((at - self.low[axis]) * self.per_mm + 0.5).clamp(0.0, most);
+        let place = |at: f64| {
+            let place = (at - self.low[axis]) * self.per_mm + 0.5;
+            if place > 0.0 { if place < most { place } else { most } } else { 0.0 }
+        };
         let (low, high) = (place(low), place(high));
-        let first = low as usize;
-        let first = if (first as f64) < low { first + 1 } else { first }.max(1) - 1;
-        let behind = (high as usize).min(self.cells[axis]);
-        first.min(behind)..behind
+        let first = low as i32;
+        let first = if f64::from(first) < low { first + 1 } else { first }.max(1) - 1;
+        let behind = (high as i32).min(self.cells[axis] as i32);
+        first.min(behind) as usize..behind as usize
     }
 
     /// The cell in which a place lies.
@@ -69,7 +73,7 @@ impl Grid {
 pub(crate) const TILE: usize = 64;
 
 /// How high material stands in each cell, and which move was the last to cut there.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct HeightMap {
     /// Where its cells are.
     pub grid: Grid,
@@ -78,6 +82,19 @@ pub struct HeightMap {
     pub heights: Vec<f32>,
     /// Number of the move that made the height, counted from 1; 0 where none did.
     pub last: Vec<u32>,
+}
+
+impl Clone for HeightMap {
+    fn clone(&self) -> HeightMap {
+        HeightMap { grid: self.grid, heights: self.heights.clone(), last: self.last.clone() }
+    }
+
+    /// Into the memory that is there: maps are large.
+    fn clone_from(&mut self, other: &HeightMap) {
+        self.grid = other.grid;
+        self.heights.clone_from(&other.heights);
+        self.last.clone_from(&other.last);
+    }
 }
 
 impl HeightMap {

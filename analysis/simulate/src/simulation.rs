@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use wide::f32x4;
+use wide::{CmpLt, f32x4};
 
 use crate::alarm::{Alarm, AlarmKind};
 use crate::history::{History, STRIDE};
 use crate::map::{Grid, HeightMap};
 use crate::moves::{Move, Way};
 use crate::stock::{Fixture, Stock};
-use crate::sweep::{Cells, Surface, chords, sweep};
+use crate::surface::{Cells, Surface};
+use crate::sweep::{chords, sweep};
 use crate::tool::{Cutter, Tool};
 
 /// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
@@ -227,6 +228,9 @@ impl Simulation {
             self.alarm(kind, own, number, Hit { place, depth });
         }
         let body = &self.bodies[own.tool];
+        if body.shank.is_none() && body.holder.is_none() {
+            return;
+        }
         let hits = [(AlarmKind::Shank, &body.shank), (AlarmKind::Holder, &body.holder)];
         let hits: Vec<_> = hits
             .into_iter()
@@ -360,6 +364,19 @@ impl Sums {
     }
 }
 
+impl Sums {
+    /// The same where there are fewer cells.
+    #[cold]
+    fn lower_few(&mut self, heights: &mut [f32], last: &mut [u32], new: [f32; LANES], number: u32) {
+        let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
+        few[..heights.len()].copy_from_slice(heights);
+        of[..last.len()].copy_from_slice(last);
+        self.lower(&mut few, &mut of, new, number);
+        heights.copy_from_slice(&few[..heights.len()]);
+        last.copy_from_slice(&of[..last.len()]);
+    }
+}
+
 impl Cells for Cutting<'_> {
     #[inline]
     fn grid(&self) -> Grid {
@@ -374,27 +391,35 @@ impl Cells for Cutting<'_> {
     #[inline(always)]
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
         let start = row * self.map.grid.cells[0];
-        let heights = &mut self.map.heights[start + columns.start..start + columns.end];
-        let last = &mut self.map.last[start + columns.start..start + columns.end];
-        let number = self.number;
+        let (begin, end) = (start + columns.start, start + columns.end);
+        let (heights, last) = (&mut self.map.heights[begin..], &mut self.map.last[begin..]);
         let mut sums = self.sums;
-        let (heights_by, heights_rest) = heights.as_chunks_mut::<LANES>();
-        let (last_by, last_rest) = last.as_chunks_mut::<LANES>();
-        let whole = heights_by.len() * LANES;
-        for (n, (heights, last)) in heights_by.iter_mut().zip(last_by).enumerate() {
-            let first = (n * LANES) as f32;
-            let new = surface.at(f32x4::splat(first) + COUNT);
-            sums.lower(heights, last, new.to_array(), number);
+        let count = end - begin;
+        let whole = count / LANES;
+        let (by_four, _) = heights.as_chunks_mut::<LANES>();
+        let (last_by_four, _) = last.as_chunks_mut::<LANES>();
+        let mut first = COUNT;
+        for (heights, last) in by_four.iter_mut().zip(last_by_four).take(whole) {
+            let new = surface.at(first);
+            // Most of what a tool goes over is cut already.
+            if new.cmp_lt(f32x4::new(*heights)).any() {
+                sums.lower(heights, last, new.to_array(), self.number);
+            }
+            first += f32x4::splat(LANES as f32);
         }
-        if !heights_rest.is_empty() {
-            let rest = heights_rest.len();
-            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
-            few[..rest].copy_from_slice(heights_rest);
-            of[..rest].copy_from_slice(last_rest);
-            let new = surface.at(f32x4::splat(whole as f32) + COUNT);
-            sums.lower(&mut few, &mut of, new.to_array(), number);
-            heights_rest.copy_from_slice(&few[..rest]);
-            last_rest.copy_from_slice(&of[..rest]);
+        let done = whole * LANES;
+        if done < count {
+            // What is behind the last cell stays.
+            let new = surface.at(first);
+            let new = first.cmp_lt(f32x4::splat(count as f32)).blend(new, f32x4::splat(f32::INFINITY));
+            match (heights[done..].first_chunk_mut(), last[done..].first_chunk_mut()) {
+                (Some(heights), Some(last)) if new.cmp_lt(f32x4::new(*heights)).any() => {
+                    sums.lower(heights, last, new.to_array(), self.number);
+                }
+                (Some(_), Some(_)) => {}
+                // The last cells of the map.
+                _ => sums.lower_few(&mut heights[done..], &mut last[done..], new.to_array(), self.number),
+            }
         }
         self.sums = sums;
     }

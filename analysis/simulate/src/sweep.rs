@@ -10,13 +10,13 @@
 //! polynomial (round corners of a flat tool). Arcs that stay level are as exact: the nearest place of the arc counts. Others,
 //! and helices, are cut into chords that leave them by less than [`CHORD`].
 
-use std::ops::Range;
-
-use wide::{CmpGt, CmpLt, f32x4};
-
 use crate::band::{Band, Form};
-use crate::map::Grid;
+use crate::level_arc::level_arc;
 use crate::moves::Way;
+use crate::surface::{
+    Across, Around, Ball, BallAt, Cells, Cone, ConeAt, Flat, Level, LevelRound, Round, RoundAt, Sloped,
+    SlopedRound, Surface,
+};
 use crate::tool::Cutter;
 
 /// How far chords leave an arc, mm.
@@ -24,27 +24,6 @@ const CHORD: f64 = 0.000_25;
 
 /// Longest piece of a line that is worked on at once, mm: single precision is fine enough for such.
 const PIECE: f64 = 32.0;
-
-/// Steps by which the place is found where a round corner touches: each halves what is not known.
-const HALVINGS: usize = 16;
-
-/// What takes the surface, row by row.
-pub(crate) trait Cells {
-    /// Where the cells are.
-    fn grid(&self) -> Grid;
-
-    /// Rows of these columns come.
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>);
-
-    /// The surface over some cells of a row.
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface);
-}
-
-/// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
-pub(crate) trait Surface {
-    /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
-    fn at(&self, i: f32x4) -> f32x4;
-}
 
 /// Goes along a move of the tip.
 pub(crate) fn sweep(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3], way: &Way) {
@@ -96,7 +75,7 @@ pub(crate) fn chords(
 }
 
 fn straight(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3]) {
-    let pieces = ((to[0] - from[0]).hypot(to[1] - from[1]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
+    let pieces = (distance([from[0], from[1]], [to[0], to[1]]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
     let point = |i: usize| match i == pieces {
         true => to,
         false => {
@@ -109,6 +88,12 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3
             line.sweep(cells, band);
         }
     }
+}
+
+/// The distance of two places. Not by `f64::hypot`, which is a slow call that reckons with numbers that no machine has.
+fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
+    let [x, y] = [other[0] - one[0], other[1] - one[1]];
+    (x * x + y * y).sqrt()
 }
 
 /// A straight way of the tip, seen from above.
@@ -125,7 +110,7 @@ struct Line {
 impl Line {
     fn new(from: [f64; 3], to: [f64; 3]) -> Line {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
-        let length = x.hypot(y);
+        let length = distance([from[0], from[1]], [to[0], to[1]]);
         if length < 1e-9 {
             // Straight down or up: what counts is the lower end.
             let low = [from[0], from[1], from[2].min(to[2])];
@@ -134,408 +119,209 @@ impl Line {
         Line { from, to, along: [x / length, y / length], length, rise: (to[2] - from[2]) / length }
     }
 
-    /// Where a row is within a distance of the line.
-    fn within(&self, y: f64, radius: f64) -> Option<[f64; 2]> {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for end in [&self.from, &self.to] {
-            let off = y - end[1];
-            let half = radius * radius - off * off;
-            if half >= 0.0 {
-                let half = half.sqrt();
-                low = low.min(end[0] - half);
-                high = high.max(end[0] + half);
+    /// The surface that a band leaves.
+    fn sweep(&self, cells: &mut impl Cells, band: &Band) {
+        let low = self.low();
+        let (floor, bottom) = ((self.from[2] + band.base) as f32, (low[2] + band.base) as f32);
+        let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
+        let own = |at| Sloped { at, floor, rise, outer };
+        match band.form {
+            Form::Flat if rise == 0.0 => self.rows(cells, band, |_| Level(floor), |_| Level(bottom)),
+            Form::Flat => self.rows(cells, band, |at| Flat(own(at)), |_| Level(bottom)),
+            Form::Round(radius) if band.inner == 0.0 => {
+                let ahead = rise / (1.0 + rise * rise).sqrt();
+                let (radius, square) = (radius as f32, (radius * radius) as f32);
+                let top = bottom + radius;
+                let ball = |at| Ball { own: own(at), radius, square, ahead };
+                self.rows(cells, band, ball, |around| BallAt { around, top, square });
             }
-        }
-        let [ux, uy] = self.along;
-        if self.length > 0.0 && uy != 0.0 {
-            for side in [radius, -radius] {
-                // The parallel through (from + side · normal).
-                let part = (y - self.from[1] - side * ux) / uy;
-                if (0.0..=self.length).contains(&part) {
-                    let x = self.from[0] - side * uy + part * ux;
-                    low = low.min(x);
-                    high = high.max(x);
+            Form::Round(radius) => {
+                let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
+                let end = |around| RoundAt { around, floor: bottom, round };
+                match rise == 0.0 {
+                    true => self.rows(cells, band, |at| LevelRound { own: own(at), round }, end),
+                    false => self.rows(cells, band, |at| SlopedRound { own: own(at), round }, end),
                 }
             }
+            Form::Cone(slope) => {
+                let slope = slope as f32;
+                let steep = rise.abs() >= slope;
+                let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
+                let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
+                let beside = if steep { sense } else { 0.0 };
+                let cone = |at| Cone { own: own(at), slope, inner, ahead, beside, sense };
+                self.rows(cells, band, cone, |around| ConeAt { around, floor: bottom, slope, inner });
+            }
         }
-        (low <= high).then_some([low, high])
     }
 
-    fn sweep(&self, cells: &mut impl Cells, band: &Band) {
+    /// Goes over the rows that a band touches, with the surface of the way, and with that of its low end where this one
+    /// counts.
+    #[inline(always)]
+    fn rows<W: Surface, E: Surface>(
+        &self,
+        cells: &mut impl Cells,
+        band: &Band,
+        way: impl Fn(Across) -> W,
+        end: impl Fn(Around) -> E,
+    ) {
         let grid = cells.grid();
         let radius = band.outer;
         let [columns, rows] = [0, 1].map(|axis| {
             let [one, other] = [self.from[axis], self.to[axis]];
-            grid.between(axis, one.min(other) - radius, one.max(other) + radius)
+            grid.between(axis, least(one, other) - radius, most(one, other) + radius)
         });
         if columns.is_empty() || rows.is_empty() {
             return;
         }
         cells.reaches(&rows, &columns);
+        let [ux, uy] = self.along;
+        let (ds, dd, length) = ((grid.cell * ux) as f32, (-grid.cell * uy) as f32, self.length as f32);
+        let across = |row, column| {
+            let off = [grid.centre(0, column) - self.from[0], grid.centre(1, row) - self.from[1]];
+            let (s, d) = ((off[0] * ux + off[1] * uy) as f32, (off[1] * ux - off[0] * uy) as f32);
+            Across { s, d, ds, dd, length }
+        };
+        let reach = Reach::new(self, radius);
         for row in rows {
             let y = grid.centre(1, row);
-            let Some([left, right]) = self.within(y, radius) else { continue };
+            let [left, right] = reach.at(y);
             let columns = grid.between(0, left, right);
             if columns.is_empty() {
                 continue;
             }
-            let off = [grid.centre(0, columns.start) - self.from[0], y - self.from[1]];
-            let [ux, uy] = self.along;
-            let at = Across {
-                s: (off[0] * ux + off[1] * uy) as f32,
-                d: (off[1] * ux - off[0] * uy) as f32,
-                ds: (grid.cell * ux) as f32,
-                dd: (-grid.cell * uy) as f32,
-                length: self.length as f32,
-            };
-            self.band(cells, band, row, columns, at);
-        }
-    }
-
-    /// The surface of a band over some cells of a row.
-    fn band(&self, cells: &mut impl Cells, band: &Band, row: usize, columns: Range<usize>, at: Across) {
-        let own = Sloped {
-            at,
-            floor: (self.from[2] + band.base) as f32,
-            rise: self.rise as f32,
-            outer: (band.outer * band.outer) as f32,
-        };
-        let inner = band.inner as f32;
-        match band.form {
-            Form::Flat if self.rise == 0.0 => cells.row(row, columns, &Level(own.floor)),
-            Form::Flat => cells.row(row, columns, &Flat(own)),
-            Form::Round(radius) if band.inner == 0.0 => {
-                let ahead = own.rise / (1.0 + own.rise * own.rise).sqrt();
-                cells.row(
-                    row,
-                    columns,
-                    &Ball { own, radius: radius as f32, square: (radius * radius) as f32, ahead },
-                );
-            }
-            Form::Round(radius) => {
-                let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
-                match self.rise == 0.0 {
-                    true => cells.row(row, columns, &LevelRound { own, round }),
-                    false => cells.row(row, columns, &SlopedRound { own, round }),
-                }
-            }
-            Form::Cone(slope) => {
-                let (slope, rise) = (slope as f32, own.rise);
-                let steep = rise.abs() >= slope;
-                let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
-                let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
-                cells.row(
-                    row,
-                    columns,
-                    &Cone { own, slope, inner, ahead, beside: if steep { sense } else { 0.0 }, sense },
-                );
-            }
-        }
-    }
-}
-
-/// What all surfaces along a straight way have.
-#[derive(Clone, Copy)]
-struct Sloped {
-    at: Across,
-    /// Height of the band's lowest point at the start, mm.
-    floor: f32,
-    /// By how much that rises, a mm.
-    rise: f32,
-    /// Square of the band's radius.
-    outer: f32,
-}
-
-impl Sloped {
-    /// How far along the way the band touches what is so far from it.
-    #[inline(always)]
-    fn half(&self, d: f32x4) -> f32x4 {
-        not_below_zero(f32x4::splat(self.outer) - d * d).sqrt()
-    }
-}
-
-/// A level bottom on a level way.
-struct Level(f32);
-
-impl Surface for Level {
-    #[inline(always)]
-    fn at(&self, _i: f32x4) -> f32x4 {
-        f32x4::splat(self.0)
-    }
-}
-
-/// A level bottom: the lowest end of what touches.
-struct Flat(Sloped);
-
-impl Surface for Flat {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let own = &self.0;
-        let (s, d) = own.at.of(i);
-        let half = own.half(d);
-        let half = if own.rise < 0.0 { half } else { -half };
-        own.at.clamped(s + half) * own.rise + own.floor
-    }
-}
-
-/// A ball.
-struct Ball {
-    own: Sloped,
-    radius: f32,
-    square: f32,
-    /// How far ahead of a cell its tip is when it comes lowest there, in parts of its radius there.
-    ahead: f32,
-}
-
-impl Surface for Ball {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let own = &self.own;
-        let (s, d) = own.at.of(i);
-        let most = own.half(d);
-        let free = not_below_zero(f32x4::splat(self.square) - d * d).sqrt() * self.ahead;
-        let t = own.at.clamped(s - between(free, -most, most));
-        let e = s - t;
-        t * own.rise + (own.floor + self.radius)
-            - not_below_zero(f32x4::splat(self.square) - d * d - e * e).sqrt()
-    }
-}
-
-/// Round corners on a level way.
-struct LevelRound {
-    own: Sloped,
-    round: Round,
-}
-
-impl Surface for LevelRound {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let (s, d) = self.own.at.of(i);
-        let e = s - self.own.at.clamped(s);
-        self.round.height(d * d + e * e) + self.own.floor
-    }
-}
-
-/// Round corners on a slope.
-struct SlopedRound {
-    own: Sloped,
-    round: Round,
-}
-
-impl Surface for SlopedRound {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let own = &self.own;
-        let (s, d) = own.at.of(i);
-        let t = own.at.clamped(s - self.round.touch(d, own.rise));
-        let e = s - t;
-        t * own.rise + self.round.height(d * d + e * e) + own.floor
-    }
-}
-
-/// A cone that is level within.
-struct Cone {
-    own: Sloped,
-    slope: f32,
-    inner: f32,
-    /// How far ahead of a cell its tip is when it comes lowest there, in parts of their distance across.
-    ahead: f32,
-    /// On a way that is steeper than the cone, the sense in which it is steep: its rim comes lowest. Else 0.
-    beside: f32,
-    /// 1 uphill, -1 downhill.
-    sense: f32,
-}
-
-impl Surface for Cone {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let own = &self.own;
-        let (s, d) = own.at.of(i);
-        let (most, level) = (own.half(d), f32x4::splat(self.inner * self.inner) - d * d);
-        let free = d.abs() * self.ahead + most * self.beside;
-        // Within the level part, its edge is the lowest.
-        let edge = not_below_zero(level).sqrt() * self.sense;
-        let free = (free * free).cmp_lt(level).blend(edge, free);
-        let t = own.at.clamped(s - between(free, -most, most));
-        let e = s - t;
-        t * own.rise + not_below_zero((d * d + e * e).sqrt() - self.inner) * self.slope + own.floor
-    }
-}
-
-/// Where the cells of a row are, along and across a line.
-#[derive(Clone, Copy)]
-struct Across {
-    s: f32,
-    d: f32,
-    ds: f32,
-    dd: f32,
-    length: f32,
-}
-
-impl Across {
-    #[inline(always)]
-    fn of(&self, i: f32x4) -> (f32x4, f32x4) {
-        (i * self.ds + self.s, i * self.dd + self.d)
-    }
-
-    #[inline(always)]
-    fn clamped(&self, t: f32x4) -> f32x4 {
-        between(t, f32x4::ZERO, f32x4::splat(self.length))
-    }
-}
-
-#[inline(always)]
-fn between(value: f32x4, low: f32x4, high: f32x4) -> f32x4 {
-    value.fast_max(low).fast_min(high)
-}
-
-#[inline(always)]
-fn not_below_zero(value: f32x4) -> f32x4 {
-    value.fast_max(f32x4::ZERO)
-}
-
-/// Round corners of a tool that is flat within.
-#[derive(Clone, Copy)]
-struct Round {
-    inner: f32,
-    radius: f32,
-    outer: f32,
-}
-
-impl Round {
-    #[inline(always)]
-    fn height(&self, square: f32x4) -> f32x4 {
-        let beyond = not_below_zero(square.sqrt() - self.inner);
-        let all = f32x4::splat(self.radius * self.radius);
-        f32x4::splat(self.radius) - not_below_zero(all - beyond * beyond).sqrt()
-    }
-
-    /// How far the tip is from the foot of a cell where the tool, which rises, comes lowest over it. There
-    ///
-    /// ```text
-    /// q / √(ρ² − q²) · √(r² − d²) / r = m,   r = inner + q
-    /// ```
-    #[inline(always)]
-    fn touch(&self, d: f32x4, rise: f32) -> f32x4 {
-        let (d2, m2, p2) = (d * d, f32x4::splat(rise * rise), f32x4::splat(self.radius * self.radius));
-        let inner = f32x4::splat(self.inner);
-        let mut low = not_below_zero(d.abs() - inner);
-        let mut high = f32x4::splat(self.outer - self.inner);
-        for _ in 0..HALVINGS {
-            let q = (low + high) * 0.5;
-            let (r, q2) = (inner + q, q * q);
-            let r2 = r * r;
-            let beyond = (q2 * (r2 - d2)).cmp_gt(m2 * r2 * (p2 - q2));
-            high = beyond.blend(q, high);
-            low = beyond.blend(low, q);
-        }
-        let r = inner + (low + high) * 0.5;
-        not_below_zero(r * r - d2).sqrt() * if rise < 0.0 { -1.0 } else { 1.0 }
-    }
-}
-
-/// A level arc: over each cell, the nearest place of the tip counts.
-fn level_arc(cells: &mut impl Cells, band: &Band, from: [f64; 3], centre: [f64; 2], sweep: f64) {
-    let grid = cells.grid();
-    let start = [from[0] - centre[0], from[1] - centre[1]];
-    let radius = start[0].hypot(start[1]);
-    let (sin, cos) = sweep.sin_cos();
-    let end = [start[0] * cos - start[1] * sin, start[0] * sin + start[1] * cos];
-    let sector = Sector { start, end, sweep };
-    let outer = band.outer;
-    let [low, high] = sector.box_around(radius);
-    let hole = radius - outer;
-    let [columns, rows] = [0, 1]
-        .map(|axis| grid.between(axis, centre[axis] + low[axis] - outer, centre[axis] + high[axis] + outer));
-    if columns.is_empty() || rows.is_empty() {
-        return;
-    }
-    cells.reaches(&rows, &columns);
-    for row in rows {
-        let y = grid.centre(1, row) - centre[1];
-        let half = ((radius + outer).powi(2) - y * y).max(0.0).sqrt();
-        let left = (low[0] - outer).max(-half);
-        let right = (high[0] + outer).min(half);
-        // Nothing is cut around the centre of a wide arc.
-        let gap = if hole > y.abs() { (hole * hole - y * y).sqrt() } else { 0.0 };
-        for [left, right] in [[left, right.min(-gap)], [left.max(gap), right]] {
-            let columns = grid.between(0, centre[0] + left, centre[0] + right);
-            if left > right || columns.is_empty() {
+            if self.rise == 0.0 || columns.len() <= SHORT {
+                let first = columns.start;
+                cells.row(row, columns, &way(across(row, first)));
                 continue;
             }
-            let x0 = grid.centre(0, columns.start) - centre[0];
-            let surface =
-                Ring { sector: &sector, band, radius, floor: from[2], from: [x0, y], cell: grid.cell };
-            cells.row(row, columns, &surface);
-        }
-    }
-}
-
-/// A band along a level arc, over cells of a row.
-struct Ring<'r> {
-    sector: &'r Sector,
-    band: &'r Band,
-    /// Radius of the arc.
-    radius: f64,
-    floor: f64,
-    /// The first cell, from the centre of the arc.
-    from: [f64; 2],
-    cell: f64,
-}
-
-impl Surface for Ring<'_> {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        f32x4::new(i.to_array().map(|i| {
-            let at = [self.from[0] + f64::from(i) * self.cell, self.from[1]];
-            let distance = self.sector.distance(at, self.radius);
-            match distance <= self.band.outer {
-                true => (self.floor + self.band.height(distance)) as f32,
-                false => f32::INFINITY,
+            let [low, high] = self.of_low_end(y, band, [left, right]);
+            let own = grid.between(0, low, high);
+            let own = own.start.clamp(columns.start, columns.end)..own.end.clamp(columns.start, columns.end);
+            let own = if own.is_empty() { columns.start..columns.start } else { own };
+            if !own.is_empty() {
+                let low = self.low();
+                let off = y - low[1];
+                let x = (grid.centre(0, own.start) - low[0]) as f32;
+                let around = Around { x, dx: grid.cell as f32, y2: (off * off) as f32 };
+                cells.row(row, own.clone(), &end(around));
             }
-        }))
-    }
-}
-
-/// An arc about the origin.
-struct Sector {
-    start: [f64; 2],
-    end: [f64; 2],
-    sweep: f64,
-}
-
-impl Sector {
-    /// Whether a direction is one of the arc.
-    #[inline]
-    fn has(&self, at: [f64; 2]) -> bool {
-        let cross = |a: [f64; 2], b: [f64; 2]| (a[0] * b[1] - a[1] * b[0]) * self.sweep.signum();
-        let behind_start = cross(self.start, at) >= 0.0;
-        let before_end = cross(at, self.end) >= 0.0;
-        match self.sweep.abs() {
-            // Chords of an arc that ends where it begins would be no arc.
-            sweep if sweep >= std::f64::consts::TAU - 1e-9 => true,
-            sweep if sweep <= std::f64::consts::PI => behind_start && before_end,
-            _ => behind_start || before_end,
+            for columns in [columns.start..own.start, own.end..columns.end] {
+                if !columns.is_empty() {
+                    let first = columns.start;
+                    cells.row(row, columns, &way(across(row, first)));
+                }
+            }
         }
     }
 
-    /// Distance of a place from the arc.
-    #[inline]
-    fn distance(&self, at: [f64; 2], radius: f64) -> f64 {
-        if self.has(at) {
-            return (at[0].hypot(at[1]) - radius).abs();
-        }
-        let from = |end: [f64; 2]| (at[0] - end[0]).hypot(at[1] - end[1]);
-        from(self.start).min(from(self.end))
+    /// The end where the tip is lowest.
+    fn low(&self) -> &[f64; 3] {
+        if self.rise > 0.0 { &self.from } else { &self.to }
     }
 
-    /// The box around the arc.
-    fn box_around(&self, radius: f64) -> [[f64; 2]; 2] {
-        let ends = [self.start, self.end];
-        let tops = [[radius, 0.0], [0.0, radius], [-radius, 0.0], [0.0, -radius]];
-        let all = ends.into_iter().chain(tops.into_iter().filter(|top| self.has(*top)));
-        all.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
-            [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
-        })
+    /// Where a row of the way is cut lowest from the low end: behind that end, as the way rises, and under what is level of
+    /// the tool there. Not all such places need to be among these. The first is greater than the second where there are none.
+    #[inline(always)]
+    fn of_low_end(&self, y: f64, band: &Band, [left, right]: [f64; 2]) -> [f64; 2] {
+        let [x, at, _] = *self.low();
+        let off = y - at;
+        let sense = if self.rise < 0.0 { -1.0 } else { 1.0 };
+        let [ux, uy] = [self.along[0] * sense, self.along[1] * sense];
+        // Behind is where (place - end) · direction is below zero.
+        let behind = if ux > 1e-9 {
+            [left, least(right, x - off * uy / ux)]
+        } else if ux < -1e-9 {
+            [most(left, x - off * uy / ux), right]
+        } else if off * uy <= 0.0 {
+            [left, right]
+        } else {
+            [right, left]
+        };
+        let half = band.inner * band.inner - off * off;
+        if half <= 0.0 {
+            return behind;
+        }
+        let half = half.sqrt();
+        let level = [x - half, x + half];
+        if behind[0] > behind[1] {
+            return level;
+        }
+        match level[0] <= behind[1] && level[1] >= behind[0] {
+            true => [least(behind[0], level[0]), most(behind[1], level[1])],
+            false => behind,
+        }
+    }
+}
+
+/// Rows with so few cells are worked on as a whole.
+const SHORT: usize = 8;
+
+/// The lesser of two numbers: none of them is no number, which `f64::min` must ask.
+#[inline(always)]
+fn least(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// The greater of two numbers.
+#[inline(always)]
+fn most(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
+/// Where rows are within a distance of a line.
+struct Reach {
+    from: [f64; 2],
+    to: [f64; 2],
+    square: f64,
+    /// For both parallels: X where they begin, and how far along the line a row at the line's start is.
+    parallels: [[f64; 2]; 2],
+    /// X of a mm along the line.
+    ux: f64,
+    /// Along the line, of a mm along Y; 0 where it has none.
+    per_y: f64,
+    length: f64,
+}
+
+impl Reach {
+    fn new(line: &Line, radius: f64) -> Reach {
+        let [ux, uy] = line.along;
+        let per_y = if line.length > 0.0 && uy != 0.0 { 1.0 / uy } else { 0.0 };
+        let parallel = |side: f64| [line.from[0] - side * uy, -side * ux * per_y];
+        Reach {
+            from: [line.from[0], line.from[1]],
+            to: [line.to[0], line.to[1]],
+            square: radius * radius,
+            parallels: [parallel(radius), parallel(-radius)],
+            ux,
+            per_y,
+            length: line.length,
+        }
+    }
+
+    /// The first is greater than the second where a row is not.
+    #[inline(always)]
+    fn at(&self, y: f64) -> [f64; 2] {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let off = y - self.from[1];
+        for (end, off) in [(self.from[0], off), (self.to[0], y - self.to[1])] {
+            let half = self.square - off * off;
+            if half >= 0.0 {
+                let half = half.sqrt();
+                low = least(low, end - half);
+                high = most(high, end + half);
+            }
+        }
+        if self.per_y != 0.0 {
+            for [x, begin] in self.parallels {
+                let part = begin + off * self.per_y;
+                if part >= 0.0 && part <= self.length {
+                    let x = x + part * self.ux;
+                    low = least(low, x);
+                    high = most(high, x);
+                }
+            }
+        }
+        [low, high]
     }
 }

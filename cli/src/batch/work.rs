@@ -28,10 +28,11 @@ use super::per_tool::left_over;
 use super::summary::{Missing, OfTool, Result as Came, Row};
 use crate::args::Translate;
 use crate::args::typed::{Eol, Format};
-use crate::recognised::doubt_dialect;
+use crate::files;
 use crate::registry::DialectRegistry;
+use crate::registry::recognised;
+use crate::registry::recognised::doubt_dialect;
 use crate::report::tell;
-use crate::{files, recognised};
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;

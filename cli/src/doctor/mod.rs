@@ -42,8 +42,8 @@ use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::args::Init;
 use crate::project::{self, Sides, Stated};
-use crate::recognised::{INTO_WHAT, recognise};
 use crate::registry::DialectRegistry;
+use crate::registry::recognised::{INTO_WHAT, recognise};
 use crate::{files, m_codes};
 
 /// Runs it. Exit code 0 if the program can be translated, whatever is asked; else that of the translation.

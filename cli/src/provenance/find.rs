@@ -26,8 +26,8 @@ use super::args::Why;
 use super::read::{Document, own_settings, read};
 use crate::files;
 use crate::milling::{self, Voice};
-use crate::recognised::recognise;
 use crate::registry::DialectRegistry;
+use crate::registry::recognised::recognise;
 
 /// A map with the source that it was made of.
 pub(crate) struct Found {

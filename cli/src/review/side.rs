@@ -27,8 +27,8 @@ use crate::m_codes;
 use crate::machines::agreed;
 use crate::milling::{self, Voice};
 use crate::project::{self, InForce, Look, Sides, Stated, settle};
-use crate::recognised::recognise;
 use crate::registry::DialectRegistry;
+use crate::registry::recognised::recognise;
 
 /// What a command says of one side.
 #[derive(Clone, Debug, Default)]

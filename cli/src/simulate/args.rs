@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use ncc_driver::simulate::described::Described;
 use ncc_driver::simulate::raw::{self, NoBody};
-use ncc_driver::simulate::tooling::{self, Described};
+use ncc_driver::simulate::tooling;
 use ncc_simulate::Look;
 
 use crate::args::common_args::{Reading, Setting, Verbosity};

@@ -12,7 +12,7 @@ pub mod args;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::job::Output;
@@ -180,7 +180,8 @@ fn carry_out(
     let mut assumed = time::assumptions(&shop, &plan, &course);
     assumed.extend(told::unplaced(&path, &plan.tables));
     let stated: BTreeMap<_, _> = args.tool.iter().cloned().collect();
-    let tools = tooling::tools(&path, &stated, shop.profile()).map_err(|fault| told::no_cutter(&fault))?;
+    let tools =
+        tooling::tools(&path, &stated, shop.profile.as_ref()).map_err(|fault| told::no_cutter(&fault))?;
     let dialect = job.from.dialect.id.clone();
     match cut(path, tools, bench) {
         Ok(cut) => Ok(Some(Done { cut, source, dialect, assumed })),
@@ -279,8 +280,10 @@ fn account(
         }
     };
     if args.json || loudness != Loudness::Quiet {
-        let beside =
-            [&args.png, &args.svg, &args.stl].into_iter().flatten().any(|name| *name == PathBuf::from("-"));
+        let beside = [&args.png, &args.svg, &args.stl]
+            .into_iter()
+            .flatten()
+            .any(|name| name.as_path() == Path::new("-"));
         match beside {
             // The part itself goes to stdout.
             true => write(err).map_err(|e| Problem::file("write", "the account", &e))?,

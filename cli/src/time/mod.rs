@@ -43,8 +43,8 @@ use crate::files::{self, Destination};
 use crate::m_codes;
 use crate::milling::{self, Voice};
 use crate::project::{self, Sides, Stated};
-use crate::recognised::recognise_all;
 use crate::registry::DialectRegistry;
+use crate::registry::recognised::recognise_all;
 pub use ncc_driver::time::payload::SCHEMA;
 use ncc_driver::time::summary::Report;
 use ncc_driver::time::summary::Timing;
@@ -54,7 +54,7 @@ use ncc_driver::translate::translate;
 
 /// The machine of a call, as the model sees it.
 pub(crate) struct Shop {
-    profile: Option<Profile>,
+    pub(crate) profile: Option<Profile>,
     machine: Machine,
     /// What the model takes for granted of it.
     assumed: Vec<AssumedFact>,
@@ -78,11 +78,6 @@ impl Shop {
         }
         let (machine, assumed) = machine.assumed(args.setting.model);
         Ok(Shop { profile, machine, assumed })
-    }
-
-    /// Its profile, where it has one.
-    pub(crate) fn profile(&self) -> Option<&Profile> {
-        self.profile.as_ref()
     }
 
     pub(crate) fn title(&self) -> &str {

@@ -10,7 +10,11 @@ use std::fs;
 use super::*;
 
 /// Commands of the book whose whole output a page shows.
-const SHOWN: [(&str, &[&str]); 3] = [
+const SHOWN: [(&str, &[&str]); 4] = [
+    (
+        "use/simulate.md",
+        &["simulate", "corpus/mach9/teste.cn", "--stock", "X-25:25 Y-75:75 Z-12:0", "--tool", "1=flat,50"],
+    ),
     ("use/own-dialect.md", &["dialects"]),
     ("use/machines.md", &["machines"]),
     ("use/time.md", &["time", "corpus/mach9/teste.cn", "--machine", "romi-discovery-4022"]),

@@ -23,6 +23,7 @@ mod project;
 mod provenance;
 mod questions;
 mod sessions;
+mod simulate;
 mod stored;
 mod terminal;
 mod time;

@@ -3,12 +3,13 @@
 //! ```text
 //! T4 D=10. CR=0. TAPER=118deg - ZMIN=-5. - drill    posts of Autodesk: D and CR in the unit of the program
 //! T5 | 10. FLAT ENDMILL | DIA.- 10.                 posts of Mastercam, in several layouts
+//! FRESA 12mm                                        a heading before a tool change, by hand: a shape and a diameter
 //! ```
 //!
-//! Both forms are those of public programs. `TAPER` is the full angle of a drill's point, and of other tools the angle
+//! These forms are those of public programs. `TAPER` is the full angle of a drill's point, and of other tools the angle
 //! between axis and side, as the libraries of that maker have it. Not here: what is not said (`tooling`).
 
-use super::tooling::{Described, Shaped};
+use super::described::{Described, Shaped};
 use ncc_machines::schema::ShapeName;
 
 /// Words for shapes, in capitals; the first that a comment has counts. Words in other languages are read by `CR` alone.
@@ -23,7 +24,15 @@ const SHAPES: &[(&str, ShapeName)] = &[
     ("CENTR", ShapeName::Drill),
     ("SPOT", ShapeName::Drill),
     ("SINK", ShapeName::Drill),
+    ("BROCA", ShapeName::Drill),
+    ("FURA", ShapeName::Drill),
+    ("BOHR", ShapeName::Drill),
+    ("ESFERIC", ShapeName::Ball),
+    ("KUGEL", ShapeName::Ball),
     ("MILL", ShapeName::Flat),
+    ("FRES", ShapeName::Flat),
+    ("FRAES", ShapeName::Flat),
+    ("FRÄS", ShapeName::Flat),
     ("REAM", ShapeName::Flat),
     ("TAP", ShapeName::Flat),
     ("BOR", ShapeName::Flat),
@@ -61,6 +70,24 @@ pub fn read(comment: &str) -> Option<(i64, Described)> {
     });
     let diameter = Some(diameter).filter(|diameter| *diameter > 0.0)?;
     Some((tool, Described { shape, diameter: Some(diameter), ..Described::default() }))
+}
+
+/// What a heading says of the tool that is put in behind it, in mm: a shape, and a number with `mm`.
+pub fn heading(comment: &str) -> Option<Described> {
+    let text = comment.to_uppercase();
+    let name = SHAPES.iter().find(|(word, _)| text.contains(word)).map(|(_, shape)| *shape)?;
+    let before = |at: usize| {
+        let text = text[..at].trim_end();
+        let digits = text.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.' || c == ',').len();
+        text[digits..].replace(',', ".").parse().ok()
+    };
+    let diameter: f64 = text.match_indices("MM").find_map(|(at, _)| before(at))?;
+    let shape = Shaped { name, corner: None, angle: None, end_diameter: None };
+    (diameter > 0.0).then(|| Described {
+        shape: Some(shape),
+        diameter: Some(diameter),
+        ..Described::default()
+    })
 }
 
 /// The number behind the first `T` that begins a word: `T4`, `T04`, `TOOL - 4`, `T 4`.

@@ -14,6 +14,7 @@ pub mod columns;
 pub mod comments;
 pub mod compare;
 pub mod cut;
+pub mod described;
 pub mod document;
 pub mod files;
 pub mod path;

@@ -17,7 +17,7 @@ use ncc_simulate::{Move, Way};
 use ncc_time::{Timed, path};
 
 use super::comments;
-use super::tooling::Described;
+use super::described::Described;
 use crate::time::drive::{Said, Sink};
 
 const Z: usize = 2;
@@ -92,6 +92,8 @@ pub struct Recorder<'t> {
     inch: bool,
     /// What comments say, in the program's unit.
     said: BTreeMap<i64, (Described, u32)>,
+    /// The heading of what comes.
+    heading: Option<(Described, u32)>,
 }
 
 impl<'t> Recorder<'t> {
@@ -109,6 +111,7 @@ impl<'t> Recorder<'t> {
             turned: None,
             inch: false,
             said: BTreeMap::new(),
+            heading: None,
         }
     }
 
@@ -137,8 +140,8 @@ impl<'t> Recorder<'t> {
             }
         }
         let unit = if inch { 25.4 } else { 1.0 };
-        path.described =
-            said.into_iter().map(|(tool, (own, line))| (tool, (own.times(unit), line))).collect();
+        let said = said.into_iter().map(|(tool, (own, line))| (tool, (own.times(unit), line)));
+        path.described.extend(said);
         path
     }
 
@@ -205,10 +208,16 @@ impl Sink for Recorder<'_> {
     fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
         let (act, event) = (&timed.act, &timed.act.event);
         self.path.end = self.path.end.max(timed.end());
-        if let Some(remark) = &said.remark
-            && let Some((tool, described)) = comments::read(remark)
+        if let Some(remark) = &said.remark {
+            match comments::read(remark) {
+                Some((tool, own)) => drop(self.said.entry(tool).or_insert((own, act.place.line))),
+                None => self.heading = comments::heading(remark).map(|own| (own, act.place.line)),
+            }
+        }
+        if event.kind == Kind::ToolChange
+            && let Some(heading) = self.heading.take()
         {
-            self.said.entry(tool).or_insert((described, act.place.line));
+            self.path.described.entry(event.state.tool).or_insert(heading);
         }
         let Some(movement) = event.kind.moves() else { return Ok(()) };
         let way = path(event, &act.from);
@@ -219,6 +228,7 @@ impl Sink for Recorder<'_> {
         if !self.path.offsets.contains(&said.tip.offset) {
             self.path.offsets.push(said.tip.offset);
         }
+        self.heading = None;
         let tool = self.tool(event.state.tool);
         let feeds = movement != Movement::Rapid && !matches!(event.kind, Kind::Probe { .. });
         if feeds {
@@ -241,6 +251,8 @@ impl Sink for Recorder<'_> {
             self.high = false;
         }
         let taken = match movement {
+            // A cut at a place of the machine is one beside the part: a wheel is dressed there.
+            Movement::Feed if self.high => Way::Away,
             Movement::Rapid if was_high && self.high => Way::Away,
             Movement::Rapid => Way::Rapid,
             Movement::Feed | Movement::Arc { .. } if !feeds => Way::Away,

@@ -6,6 +6,7 @@ use ncc_machines::Profile;
 use ncc_machines::schema::ShapeName;
 use ncc_simulate::{Cutter, CutterFault, Shape, Tool};
 
+use super::described::{Described, Shaped};
 use super::path::{Path, Used};
 
 /// Diameter of a mill of which nothing is known, mm.
@@ -20,64 +21,6 @@ const CHAMFER: f64 = 90.0;
 const TAPER: f64 = 5.0;
 /// Length of what cuts for a taper without one, mm: it bounds how wide it is above.
 const LONG: f64 = 100.0;
-
-/// A shape, as far as it is known.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Shaped {
-    /// Its name.
-    pub name: ShapeName,
-    /// Radius of corners, mm.
-    pub corner: Option<f64>,
-    /// Angle, degrees, as the profile has it.
-    pub angle: Option<f64>,
-    /// Diameter of the end, mm.
-    pub end_diameter: Option<f64>,
-}
-
-/// A tool, as far as somebody describes it. Lengths in mm.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Described {
-    /// Its shape.
-    pub shape: Option<Shaped>,
-    /// Its diameter.
-    pub diameter: Option<f64>,
-    /// Length of what cuts.
-    pub flute: Option<f64>,
-    /// Diameter of the shank.
-    pub shank: Option<f64>,
-    /// Diameter of the holder.
-    pub holder: Option<f64>,
-    /// How high above the tip the holder begins.
-    pub holder_from: Option<f64>,
-}
-
-impl Described {
-    /// The same with lengths in another unit.
-    #[must_use]
-    pub(crate) fn times(mut self, unit: f64) -> Described {
-        let shape = self.shape.as_mut();
-        let (corner, end) =
-            shape.map_or((None, None), |own| (own.corner.as_mut(), own.end_diameter.as_mut()));
-        let others =
-            [&mut self.diameter, &mut self.flute, &mut self.shank, &mut self.holder, &mut self.holder_from];
-        let others = others.into_iter().filter_map(Option::as_mut);
-        others.chain(corner).chain(end).for_each(|length| *length *= unit);
-        self
-    }
-
-    /// What this does not say, by another one.
-    #[must_use]
-    fn or(self, other: &Described) -> Described {
-        Described {
-            shape: self.shape.or_else(|| other.shape.clone()),
-            diameter: self.diameter.or(other.diameter),
-            flute: self.flute.or(other.flute),
-            shank: self.shank.or(other.shank),
-            holder: self.holder.or(other.holder),
-            holder_from: self.holder_from.or(other.holder_from),
-        }
-    }
-}
 
 /// Where a tool's diameter comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,14 +7,13 @@
 
 mod lines;
 mod notes;
+mod plain;
 
 use std::collections::{BTreeSet, VecDeque};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
-use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
-use ncc_exec::maps::Renaming;
-use ncc_exec::world::{Sideways, Tables, World};
+use ncc_exec::world::{Tables, World};
 use ncc_exec::{Event, Exec, Kind, Runner};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, PathMode};
@@ -30,12 +29,10 @@ use ncc_time::{Clock, Longest, Machine, Model, Place, Timed};
 use super::blocks::Blocks;
 use super::reach::Reach;
 use crate::job::Job;
-use crate::job::parameters::parameter;
 use crate::review::stream::as_stated;
 use crate::source::Source;
 use crate::source::chunks::{Chunk, Chunks};
 use crate::source::reader::reader_for;
-use crate::verify_run::controls::fixed;
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -301,7 +298,7 @@ struct Drive<'d> {
 
 impl<'d> Drive<'d> {
     fn new(plan: &'d Plan<'d>, sink: &'d mut dyn Sink) -> Drive<'d> {
-        let world = world(plan);
+        let world = plain::world(plan);
         let mut exec = Exec::new(&world, plan.skip);
         exec.narrate();
         if plan.centre {
@@ -501,12 +498,12 @@ impl<'d> Drive<'d> {
             [event] if !contour => Some(event.clone()),
             _ => None,
         };
-        let last = events.len();
+        let last = events.iter().rposition(|event| event.kind.moves().is_some());
         for (n, event) in events.drain(..).enumerate() {
             let held = self.held.iter().rev().find(|(span, ..)| contour && *span == event.span);
             let (place, mut said) =
                 held.map_or((place, said.clone()), |(_, place, said)| (*place, said.clone()));
-            if n + 1 < last {
+            if last != Some(n) {
                 // By way of a point of the part.
                 said.tip.of_machine = [false; 3];
             }
@@ -585,37 +582,5 @@ impl<'d> Drive<'d> {
         self.course.refused = self.errors > 0;
         self.course.end = self.plan.start_time + self.clock.now();
         Ok(self.course)
-    }
-}
-
-/// The plain world: the machine's tables, zero where it states nothing, the dictionary's state at
-/// power-on.
-fn world(plan: &Plan) -> World {
-    let (job, fixed) = (plan.job, fixed(plan.job.from.dialect));
-    let value = |option| parameter(job, option).and_then(|value| value.nanos(false)).unwrap_or(0);
-    World {
-        external: [0; AXES],
-        seed: 0,
-        power_on: Modes { no_origin_shift: Some(true), ..fixed },
-        path: None,
-        start: [0; AXES],
-        peck_clearance: value(PECK_CLEARANCE),
-        backs_off: 0,
-        length_by_change: false,
-        zeroed_by_tool: false,
-        behaviours: job.from.behaviours(),
-        increments: job.from.fine_increments(),
-        optional_stop: false,
-        feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
-        cycles_need_spindle: job.from.dialect.can.cycles_need_spindle,
-        compensation_again: job.from.dialect.caps.compensation.again,
-        looks_over_blocks: job.looks_over_blocks(),
-        arcs: job.from.arc_rule(),
-        refused_compensated: job.from.dialect.caps.compensation.refused,
-        break_lift: value(BREAK_LIFT),
-        orientation: 0,
-        bore_shift: Sideways::default(),
-        tables: plan.tables.clone(),
-        renaming: Renaming::default(),
     }
 }

@@ -66,7 +66,11 @@ impl<'d> Drive<'d> {
     }
 
     /// Passes an event on, with what its block says.
-    pub(super) fn event(&mut self, event: Event, place: Place, said: Said) {
+    pub(super) fn event(&mut self, mut event: Event, place: Place, said: Said) {
+        if matches!(event.kind, Kind::Attribute(_)) {
+            // A remark between two blocks of a rounded corner moves nothing: the control stands before the corner.
+            event.end = self.last;
+        }
         let act = Act::of(event, self.last, &self.exec, place);
         self.moves(&act);
         self.last = act.event.end;
@@ -172,6 +176,25 @@ mod tests {
                 assert!(tables.0.len() > 2_000 && !tables.3 && !statements.3);
             }
         }
+    }
+
+    /// A remark between the blocks of a rounded corner takes the control nowhere.
+    #[test]
+    fn a_remark_before_a_corner_moves_nothing() {
+        let program = |remark: &str| {
+            format!(
+                "%\nO1\nG21 G17 G90 G94 G40 G49 G80 G54\nT1 M6\nS500 M3\nG0 X0. Y0. Z0.\nG1 X40. F100. ,R1.\n{remark}\
+                 G3 X20. Y20. R20. ,R2.\nG1 Y0.\nM30\n%\n"
+            )
+        };
+        let [plain, remarked] =
+            ["", "(BOTH ENDS)\n"].map(|remark| timed(&program(remark), Model::Ideal, true));
+        let moves = |all: &[Timed]| -> Vec<_> {
+            let moves = all.iter().filter(|timed| timed.act.event.kind.moves().is_some());
+            moves.map(|timed| (timed.act.from, timed.act.event.end, timed.duration)).collect()
+        };
+        assert!(moves(&plain.0).len() > 5 && !plain.3 && !remarked.3);
+        assert_eq!(moves(&plain.0), moves(&remarked.0));
     }
 
     /// So are those that begin a piece behind a block that changes what they hang on.

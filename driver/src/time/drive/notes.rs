@@ -62,6 +62,8 @@ impl<'d> Drive<'d> {
                 [false; 3]
             }
             Op::GoToReference(reference) => [0, 1, 2].map(|axis| reference.axes[axis]),
+            // Where a control goes for a change.
+            Op::ChangeTool => [true; 3],
             Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) => {
                 let by_machine = std::mem::take(&mut self.of_machine);
                 [0, 1, 2].map(|axis| by_machine && to.to.axes[axis].is_some())

@@ -3,6 +3,8 @@
 //! A dictionary of a shop lives as long as the process, as the built-in ones do. What is wrong with it
 //! is told here, at its place in the file. Not here: what a dictionary means.
 
+pub(crate) mod recognised;
+
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,0 +1,297 @@
+//! Surfaces that tools leave over the cells of a row, four cells at once.
+//!
+//! Along a line, cells lie `s` along it and `d` across ([`Across`]); around a place, so far from it ([`Around`]).
+
+use std::ops::Range;
+
+use wide::{CmpGt, CmpLt, f32x4};
+
+use crate::map::Grid;
+
+/// Steps by which the place is found where a round corner touches: each halves what is not known.
+const HALVINGS: usize = 16;
+
+/// What takes the surface, row by row.
+pub(crate) trait Cells {
+    /// Where the cells are.
+    fn grid(&self) -> Grid;
+
+    /// Rows of these columns come.
+    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>);
+
+    /// The surface over some cells of a row.
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface);
+}
+
+/// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
+pub(crate) trait Surface {
+    /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
+    fn at(&self, i: f32x4) -> f32x4;
+}
+
+/// What all surfaces along a straight way have.
+#[derive(Clone, Copy)]
+pub(super) struct Sloped {
+    pub(super) at: Across,
+    /// Height of the band's lowest point at the start, mm.
+    pub(super) floor: f32,
+    /// By how much that rises, a mm.
+    pub(super) rise: f32,
+    /// Square of the band's radius.
+    pub(super) outer: f32,
+}
+
+impl Sloped {
+    /// How far along the way the band touches what is so far from it.
+    #[inline(always)]
+    pub(super) fn half(&self, d: f32x4) -> f32x4 {
+        not_below_zero(f32x4::splat(self.outer) - d * d).sqrt()
+    }
+}
+
+/// Where the cells of a row are around a place.
+#[derive(Clone, Copy)]
+pub(super) struct Around {
+    pub(super) x: f32,
+    pub(super) dx: f32,
+    pub(super) y2: f32,
+}
+
+impl Around {
+    /// Squares of their distances.
+    #[inline(always)]
+    pub(super) fn squares(&self, i: f32x4) -> f32x4 {
+        let x = i * self.dx + self.x;
+        x * x + self.y2
+    }
+}
+
+/// A ball that stands at a place.
+pub(super) struct BallAt {
+    pub(super) around: Around,
+    /// Its centre.
+    pub(super) top: f32,
+    pub(super) square: f32,
+}
+
+impl Surface for BallAt {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        f32x4::splat(self.top) - not_below_zero(f32x4::splat(self.square) - self.around.squares(i)).sqrt()
+    }
+}
+
+/// Round corners that stand at a place.
+pub(super) struct RoundAt {
+    pub(super) around: Around,
+    pub(super) floor: f32,
+    pub(super) round: Round,
+}
+
+impl Surface for RoundAt {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        self.round.height(self.around.squares(i)) + self.floor
+    }
+}
+
+/// A cone that stands at a place.
+pub(super) struct ConeAt {
+    pub(super) around: Around,
+    pub(super) floor: f32,
+    pub(super) slope: f32,
+    pub(super) inner: f32,
+}
+
+impl Surface for ConeAt {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        not_below_zero(self.around.squares(i).sqrt() - self.inner) * self.slope + self.floor
+    }
+}
+
+/// A level bottom on a level way.
+pub(super) struct Level(pub(super) f32);
+
+impl Surface for Level {
+    #[inline(always)]
+    fn at(&self, _i: f32x4) -> f32x4 {
+        f32x4::splat(self.0)
+    }
+}
+
+/// A level bottom: the lowest end of what touches.
+pub(super) struct Flat(pub(super) Sloped);
+
+impl Surface for Flat {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        let own = &self.0;
+        let (s, d) = own.at.of(i);
+        let half = own.half(d);
+        let half = if own.rise < 0.0 { half } else { -half };
+        own.at.clamped(s + half) * own.rise + own.floor
+    }
+}
+
+/// A ball.
+pub(super) struct Ball {
+    pub(super) own: Sloped,
+    pub(super) radius: f32,
+    pub(super) square: f32,
+    /// How far ahead of a cell its tip is when it comes lowest there, in parts of its radius there.
+    pub(super) ahead: f32,
+}
+
+impl Surface for Ball {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let left = f32x4::splat(self.square) - d * d;
+        let free = not_below_zero(left).sqrt() * self.ahead;
+        // Of a whole ball it is never as much as its half.
+        let free = if self.square > own.outer {
+            let most = own.half(d);
+            between(free, -most, most)
+        } else {
+            free
+        };
+        let t = own.at.clamped(s - free);
+        let e = s - t;
+        t * own.rise + (own.floor + self.radius) - not_below_zero(left - e * e).sqrt()
+    }
+}
+
+/// Round corners on a level way.
+pub(super) struct LevelRound {
+    pub(super) own: Sloped,
+    pub(super) round: Round,
+}
+
+impl Surface for LevelRound {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        let (s, d) = self.own.at.of(i);
+        let e = s - self.own.at.clamped(s);
+        self.round.height(d * d + e * e) + self.own.floor
+    }
+}
+
+/// Round corners on a slope.
+pub(super) struct SlopedRound {
+    pub(super) own: Sloped,
+    pub(super) round: Round,
+}
+
+impl Surface for SlopedRound {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let t = own.at.clamped(s - self.round.touch(d, own.rise));
+        let e = s - t;
+        t * own.rise + self.round.height(d * d + e * e) + own.floor
+    }
+}
+
+/// A cone that is level within.
+pub(super) struct Cone {
+    pub(super) own: Sloped,
+    pub(super) slope: f32,
+    pub(super) inner: f32,
+    /// How far ahead of a cell its tip is when it comes lowest there, in parts of their distance across.
+    pub(super) ahead: f32,
+    /// On a way that is steeper than the cone, the sense in which it is steep: its rim comes lowest. Else 0.
+    pub(super) beside: f32,
+    /// 1 uphill, -1 downhill.
+    pub(super) sense: f32,
+}
+
+impl Surface for Cone {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        let own = &self.own;
+        let (s, d) = own.at.of(i);
+        let (most, level) = (own.half(d), f32x4::splat(self.inner * self.inner) - d * d);
+        let free = d.abs() * self.ahead + most * self.beside;
+        // Within the level part, its edge is the lowest.
+        let edge = not_below_zero(level).sqrt() * self.sense;
+        let free = (free * free).cmp_lt(level).blend(edge, free);
+        let t = own.at.clamped(s - between(free, -most, most));
+        let e = s - t;
+        t * own.rise + not_below_zero((d * d + e * e).sqrt() - self.inner) * self.slope + own.floor
+    }
+}
+
+/// Where the cells of a row are, along and across a line.
+#[derive(Clone, Copy)]
+pub(super) struct Across {
+    pub(super) s: f32,
+    pub(super) d: f32,
+    pub(super) ds: f32,
+    pub(super) dd: f32,
+    pub(super) length: f32,
+}
+
+impl Across {
+    #[inline(always)]
+    pub(super) fn of(&self, i: f32x4) -> (f32x4, f32x4) {
+        (i * self.ds + self.s, i * self.dd + self.d)
+    }
+
+    #[inline(always)]
+    pub(super) fn clamped(&self, t: f32x4) -> f32x4 {
+        between(t, f32x4::ZERO, f32x4::splat(self.length))
+    }
+}
+
+#[inline(always)]
+fn between(value: f32x4, low: f32x4, high: f32x4) -> f32x4 {
+    value.fast_max(low).fast_min(high)
+}
+
+#[inline(always)]
+fn not_below_zero(value: f32x4) -> f32x4 {
+    value.fast_max(f32x4::ZERO)
+}
+
+/// Round corners of a tool that is flat within.
+#[derive(Clone, Copy)]
+pub(super) struct Round {
+    pub(super) inner: f32,
+    pub(super) radius: f32,
+    pub(super) outer: f32,
+}
+
+impl Round {
+    #[inline(always)]
+    pub(super) fn height(&self, square: f32x4) -> f32x4 {
+        let beyond = not_below_zero(square.sqrt() - self.inner);
+        let all = f32x4::splat(self.radius * self.radius);
+        f32x4::splat(self.radius) - not_below_zero(all - beyond * beyond).sqrt()
+    }
+
+    /// How far the tip is from the foot of a cell where the tool, which rises, comes lowest over it. There
+    ///
+    /// ```text
+    /// q / √(ρ² − q²) · √(r² − d²) / r = m,   r = inner + q
+    /// ```
+    #[inline(always)]
+    pub(super) fn touch(&self, d: f32x4, rise: f32) -> f32x4 {
+        let (d2, m2, p2) = (d * d, f32x4::splat(rise * rise), f32x4::splat(self.radius * self.radius));
+        let inner = f32x4::splat(self.inner);
+        let mut low = not_below_zero(d.abs() - inner);
+        let mut high = f32x4::splat(self.outer - self.inner);
+        for _ in 0..HALVINGS {
+            let q = (low + high) * 0.5;
+            let (r, q2) = (inner + q, q * q);
+            let r2 = r * r;
+            let beyond = (q2 * (r2 - d2)).cmp_gt(m2 * r2 * (p2 - q2));
+            high = beyond.blend(q, high);
+            low = beyond.blend(low, q);
+        }
+        let r = inner + (low + high) * 0.5;
+        not_below_zero(r * r - d2).sqrt() * if rise < 0.0 { -1.0 } else { 1.0 }
+    }
+}
