@@ -22,6 +22,7 @@ mod program;
 pub mod request;
 mod simulate;
 mod verbs;
+mod words;
 
 use std::collections::BTreeMap;
 

@@ -29,6 +29,9 @@ pub enum Request {
     Explain(Explain),
     /// Tells what an editor colours of some lines. Output: `document`, as `colours` has it.
     Colours(Colours),
+    /// Lists the words of a dialect. Output: `document`: `words`, each with `kind`, `word`, `means`, `refused`, `sure` and
+    /// `source`, and `sources` by their keys.
+    Words(Words),
     /// Lists the machines that come with ncc. Output: `document`, a list of objects with `id`, `title` and `dialect`.
     Machines(Nothing),
     /// Executes a program. Outputs: `path`, its moves as columns of numbers (`ncc_driver::simulate::columns`), `messages`.
@@ -51,6 +54,14 @@ pub enum Request {
 pub struct Explain {
     /// Its code: `NC0107`.
     pub code: String,
+}
+
+/// A dialect.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Words {
+    /// Its name.
+    pub dialect: String,
 }
 
 /// Lines of a program.

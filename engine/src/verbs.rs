@@ -34,8 +34,9 @@ use ncc_time::Model;
 
 use crate::colours;
 use crate::program::{Files, InMemory, Outputs, named, open, pairs, profile, settings, side};
-use crate::request::{Colours, Explain, One, Request, Translate, Two};
+use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};
 use crate::simulate::{self, Kept};
+use crate::words;
 
 /// Does a request.
 pub(crate) fn run(request: &str, files: &Files, kept: &mut Kept) -> (u8, Outputs) {
@@ -70,6 +71,11 @@ fn verb(
             None => Err(RequestFault::NoMessage(code.clone()).into()),
         },
         Request::Colours(asked) => coloured(asked, files),
+        Request::Words(Words { dialect }) => {
+            let dialect = named(Some(dialect))?.ok_or(RequestFault::NoTarget)?;
+            let document = serde_json::to_vec(&words::document(dialect)).unwrap_or_default();
+            Ok((Exit::Done, vec![("document", document)]))
+        }
         Request::Machines(_) => {
             let machine = |profile: &Profile| {
                 let title = &profile.schema.title;

@@ -203,3 +203,16 @@ fn machines_are_listed_with_their_dialects() {
     assert_eq!(code, 0);
     assert!(text(&engine, "document").contains("\"haas-vf2\""));
 }
+
+#[test]
+fn words_of_a_dialect_have_meanings_and_sources() {
+    let (code, engine) = done(&[], r#"{ "verb": "words", "dialect": "fanuc" }"#);
+    assert_eq!(code, 0);
+    let document: serde_json::Value = serde_json::from_str(&text(&engine, "document")).expect("JSON");
+    let words = document["words"].as_array().expect("a list");
+    let found = |name: &str| words.iter().find(|row| row["word"] == name).expect("a row");
+    assert_eq!(found("G01")["means"], "STRAIGHT_FEED");
+    assert_eq!(found("X")["means"], "axis, length");
+    assert!(words.iter().any(|row| !row["refused"].is_null()));
+    assert!(document["sources"]["16-C"].is_string());
+}

@@ -36,6 +36,10 @@ const editor = new Editor(byId("editor"), {
     const from = session.project.get()?.choices.from ?? "auto";
     return session.colours(doc, from === "auto" ? session.dialect.get() || from : from, first, lines);
   },
+  words: () => {
+    const from = session.project.get()?.choices.from ?? "auto";
+    return session.words(from === "auto" ? session.dialect.get() : from);
+  },
   changed: () => {
     desk.changed();
     session.change();

@@ -3,6 +3,7 @@
 
 import { Cancelled, type Answer, type Engine, type Request } from "./engine/engine";
 import type { Colours, Findings, Listed, Problem, Report } from "./engine/documents";
+import type { Words } from "./editor/words";
 import type { Engines } from "./engine/host";
 import { readCut, readHeights, type Cut, type Heights } from "./engine/part";
 import { readPath, type Path } from "./engine/path";
@@ -61,6 +62,7 @@ export class Session {
   private timer = 0;
   private began = 0;
   private lasted = 0;
+  private readonly known = new Map<string, Promise<Words | undefined>>();
   private seeking = false;
   private wantedMoves = Infinity;
   private shownMoves = Infinity;
@@ -120,6 +122,15 @@ export class Session {
     }
     const answer = await quick.run({ verb: "colours", file, from, first, lines });
     return answer.json<Colours>("document");
+  }
+
+  /** The words of a dialect; they are asked for once. */
+  words(dialect: string): Promise<Words | undefined> {
+    const quick = this.engines?.quick;
+    if (!quick || !dialect) return Promise.resolve(undefined);
+    const found = this.known.get(dialect) ?? quick.run({ verb: "words", dialect }).then((answer) => answer.json<Words>("document"));
+    this.known.set(dialect, found);
+    return found;
   }
 
   private async work(): Promise<void> {

@@ -108,6 +108,25 @@ page("a problem stands in its line and in the list, and a click goes there", {},
   assert.equal(await line(own), 8);
 });
 
+page("a word under the pointer is explained, and words are offered while somebody types", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.locator("#editor .c-code-g", { hasText: "G43" }).first().hover();
+  const about = own.locator("#editor .about");
+  await about.waitFor();
+  assert.match(await about.textContent(), /USE_TOOL_LENGTH_OFFSET/);
+  await own.locator("#editor .cm-line", { hasText: "M5" }).first().click();
+  await own.keyboard.press("End");
+  await own.keyboard.press("Enter");
+  await own.keyboard.type("G8");
+  const offers = own.locator("#editor .cm-tooltip-autocomplete li");
+  await offers.first().waitFor();
+  assert.ok((await offers.allTextContents()).some((text) => text.startsWith("G83")));
+  await own.keyboard.press("Escape");
+  // What stands behind a word of a letter is its letter's.
+  await own.locator("#editor .c-feed").first().hover();
+  await about.filter({ hasText: "feed" }).waitFor();
+});
+
 page("the line of the cursor is marked in the picture, and a click on a move goes to its line", {}, async (own) => {
   await type(own, SQUARE);
   await own.click("#part");
@@ -339,12 +358,18 @@ page("keys reach all of it", {}, async (own) => {
   await own.locator("#projects-dialog[open]").waitFor();
   assert.ok(await own.isVisible("#projects-dialog"));
   await own.keyboard.press("Escape");
+  await own.keyboard.press("Control+Shift+Enter");
+  assert.equal(await own.getAttribute("#play", "aria-label"), "Pause");
+  await own.keyboard.press("Control+Shift+Enter");
+  assert.equal(await own.getAttribute("#play", "aria-label"), "Play");
   await own.locator("#canvas").focus();
   const frames = await own.getAttribute("#canvas", "data-frames");
   await own.keyboard.press("2");
   await own.waitForTimeout(200);
   assert.notEqual(await own.getAttribute("#canvas", "data-frames"), frames);
   await own.locator("#tab-machine").focus();
+  await own.keyboard.press("ArrowRight");
+  assert.ok(await own.isVisible("#setup-pane"));
   await own.keyboard.press("ArrowRight");
   assert.ok(await own.isVisible("#output"));
 });

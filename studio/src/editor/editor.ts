@@ -1,5 +1,6 @@
 // The editor of a program: CodeMirror in a shadow root, whose style sheets need no inline style of the page.
 
+import { completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { lintGutter, setDiagnostics, type Diagnostic } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
@@ -18,10 +19,12 @@ import type { Place, Problem } from "../engine/documents";
 import { el } from "../ui/dom";
 import { coloured, recolour, type AskColours } from "./colours";
 import { look } from "./look";
+import { explained, type AskWords } from "./words";
 
 export interface Wiring {
   label: string;
   colours: AskColours;
+  words: AskWords;
   readOnly?: boolean;
   /** The user changed the text. */
   changed?(): void;
@@ -146,7 +149,7 @@ export class Editor {
   }
 
   private state(doc: string): EditorState {
-    const { label, colours, readOnly = false, changed, cursor } = this.wiring;
+    const { label, colours, words, readOnly = false, changed, cursor } = this.wiring;
     const extensions: Extension[] = [
       lineNumbers(),
       highlightActiveLineGutter(),
@@ -155,7 +158,7 @@ export class Editor {
       history(),
       search({ top: true }),
       highlightSelectionMatches(),
-      keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap]),
+      keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap, ...searchKeymap]),
       EditorState.readOnly.of(readOnly),
       EditorView.contentAttributes.of({
         "aria-label": label,
@@ -165,6 +168,7 @@ export class Editor {
       }),
       nowField,
       coloured(colours),
+      explained(words),
       look,
       EditorView.updateListener.of((update) => {
         if (update.docChanged && !readOnly) changed?.();

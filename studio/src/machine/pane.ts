@@ -160,6 +160,7 @@ export class MachinePane {
       "3": () => this.view?.look("front"),
       "4": () => this.view?.look("right"),
       f: () => this.view?.fit(),
+      " ": () => this.player.toggle(),
       ArrowRight: () => this.player.step(1),
       ArrowLeft: () => this.player.step(-1),
       "+": () => this.view?.zoom(1.25),

@@ -9,6 +9,8 @@ import { clock, figure, say } from "../ui/texts";
 
 const KINDS = ["rapid", "feedMove", "clockwise", "counterclockwise", "away"] as const;
 
+const SHORT = ["X", "Y", "Z", "F", "block"];
+
 /** The read-out: place in machine coordinates, feed, spindle, tool, block. */
 export class Readout {
   private readonly values = new Map<string, HTMLElement>();
@@ -18,12 +20,14 @@ export class Readout {
     const names: Record<string, string> = { block: say("line"), move: "", time: say("time") };
     for (const row of rows) {
       if (!row) {
-        byId("readout").append(el("div", { class: "gap" }));
+        byId("readout").append(el("div", { class: "gap more" }));
         continue;
       }
-      const value = el("dd", { id: `now-${row.toLowerCase()}` }, "–");
+      // A small screen has no room for all of it.
+      const look = SHORT.includes(row) ? "" : "more";
+      const value = el("dd", { id: `now-${row.toLowerCase()}`, class: look }, "–");
       this.values.set(row, value);
-      byId("readout").append(el("dt", {}, names[row] ?? row), value);
+      byId("readout").append(el("dt", { class: look }, names[row] ?? row), value);
     }
   }
 

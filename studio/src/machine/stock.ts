@@ -34,7 +34,14 @@ uniform int stride;
 uniform ivec2 points;
 out vec3 place;
 out vec2 at;
+/** Which way the surface looks, and how near a wall of the border is. */
+out vec3 face;
+out float border;
 flat out int isGone;
+
+float heightAt(ivec2 own) {
+  return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
+}
 
 void main() {
   // A ring around the cells stands on the floor: the walls.
@@ -49,6 +56,12 @@ void main() {
   // The outer half of a cell at the border belongs to the part.
   place.xy += (vec2(greaterThanEqual(own, points - 1)) - vec2(lessThanEqual(own, ivec2(0)))) * 0.5 * cell;
   at = vec2(inside);
+  border = float(wall);
+  // Over two points to each side, so that the steps of a wall between cells are not seen.
+  int reach = 2 * stride;
+  float x = heightAt(inside - ivec2(reach, 0)) - heightAt(inside + ivec2(reach, 0));
+  float y = heightAt(inside - ivec2(0, reach)) - heightAt(inside + ivec2(0, reach));
+  face = vec3(x, y, 2.0 * float(reach) * cell);
   gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }
 `;
@@ -69,12 +82,14 @@ uniform vec3 sun;
 uniform vec3 eye;
 in vec3 place;
 in vec2 at;
+in vec3 face;
+in float border;
 flat in int isGone;
 out vec4 ink;
 
 void main() {
   if (isGone == 1) discard;
-  vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+  vec3 normal = normalize(border > 0.001 ? cross(dFdx(place), dFdy(place)) : face);
   if (dot(normal, eye) < 0.0) normal = -normal;
   // Move and tool of a cell: moves in whole numbers, the tool's ink in the fraction.
   float number = texelFetch(last, ivec2(at + 0.5), 0).r;
@@ -84,7 +99,7 @@ void main() {
   float move = floor(number);
   if (move >= marked.x && move <= marked.y) own = mix(own, mark, 0.65);
   float lit = max(dot(normal, sun), 0.0);
-  float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), 24.0) * 0.16 * touched;
+  float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), 24.0) * 0.14 * touched * smoothstep(0.3, 0.8, normal.z);
   float side = 0.5 + 0.5 * normal.z;
   ink = vec4(own * (0.50 + 0.16 * side + 0.42 * lit) + shine, 1.0);
 }

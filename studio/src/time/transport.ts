@@ -31,7 +31,7 @@ export class Transport {
       const button = byId("play");
       button.replaceChildren(icon(playing ? "pause" : "play"));
       button.setAttribute("aria-label", say(playing ? "pause" : "play"));
-      button.title = `${say(playing ? "pause" : "play")} (Ctrl+Space)`;
+      button.title = `${say(playing ? "pause" : "play")} (Ctrl+Shift+Enter)`;
     });
     player.speed.on((speed) => {
       this.speed.value = String(Math.log10(speed));

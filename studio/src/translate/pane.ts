@@ -26,6 +26,7 @@ export class TranslatePane {
       label: say("translation"),
       readOnly: true,
       colours: (doc, first, lines) => session.colours(doc, this.target() || "auto", first, lines),
+      words: () => session.words(this.target()),
     });
     session.translation.on((translation) => this.show(translation));
     session.project.on(() => this.choices());

@@ -12,12 +12,12 @@ export interface Reach {
   toLine(line: number): void;
 }
 
-/** Keys with Ctrl (or Cmd). */
+/** Keys with Ctrl (or Cmd); `^` is Shift. */
 function table({ desk, player, editor, projects, toLine }: Reach): Record<string, () => void> {
   return {
     s: () => void desk.save(),
     o: projects,
-    " ": () => player.toggle(),
+    "^Enter": () => player.toggle(),
     ".": () => player.step(1),
     ",": () => player.step(-1),
     Enter: () => toLine(editor.cursor),
@@ -29,8 +29,9 @@ export function wireKeys(reach: Reach): void {
   addEventListener(
     "keydown",
     (event) => {
-      const does = event.ctrlKey || event.metaKey ? keys[event.key] : undefined;
-      if (!does || event.shiftKey || event.altKey) return;
+      const key = `${event.shiftKey ? "^" : ""}${event.key}`;
+      const does = event.ctrlKey || event.metaKey ? keys[key] : undefined;
+      if (!does || event.altKey) return;
       event.preventDefault();
       event.stopPropagation();
       does();
