@@ -16,13 +16,19 @@ import { TranslatePane } from "./translate/pane";
 import { ChoiceLists } from "./ui/choice-lists";
 import { byId } from "./ui/dom";
 import { wireKeys } from "./ui/keys";
-import { Panes, fillWords, wireLanguage, wireSplit, wireTheme, wireToggle } from "./ui/layout";
+import { Panes, fillWords, showTheme, wireLanguage, wireSplit, wireTheme, wireToggle } from "./ui/layout";
 import { chooseLanguage, say } from "./ui/texts";
 
 const language = chooseLanguage(stored("ncc-language"));
 fillWords();
 wireLanguage(language);
 wireSplit();
+showTheme();
+// The frame is seen before the rest is made.
+await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+// The compiler is on its way while the page is built; a failure is told where it is waited for.
+const coming = openEngines();
+coming.catch(() => undefined);
 
 const session = new Session();
 const player = new Player();
@@ -133,7 +139,7 @@ player.now.on((now) => {
 
 await desk.begin();
 try {
-  const engines = await openEngines();
+  const engines = await coming;
   await session.start(engines, () => editor.text);
   lists.fill();
   editor.recolour();

@@ -33,6 +33,8 @@ const NOTHING: Checked = { problems: [], notChecked: [], told: "" };
 const [SOON, LATE] = [90, 900];
 /** Work that has run so long is given up for newer work; what is younger ends sooner than another engine starts. */
 const YOUNG = 250;
+/** A part that takes longer is slow, ms. */
+const SLOW = 400;
 /** Cells along the longer side of the part. */
 const CELLS = 512;
 
@@ -62,6 +64,7 @@ export class Session {
   private timer = 0;
   private began = 0;
   private lasted = 0;
+  private cutLasted = 0;
   private readonly known = new Map<string, Promise<Words | undefined>>();
   private seeking = false;
   private wantedMoves = Infinity;
@@ -87,7 +90,7 @@ export class Session {
     this.generation += 1;
     this.idle.set(false);
     clearTimeout(this.timer);
-    const wait = Math.min(LATE, Math.max(SOON, this.lasted * 0.6));
+    const wait = Math.min(LATE, Math.max(SOON, (this.lasted - this.cutLasted) * 0.6));
     this.timer = window.setTimeout(() => void this.work(), wait);
   }
 
@@ -163,10 +166,18 @@ export class Session {
 
   private async steps(heavy: Engine, project: Project, current: () => boolean): Promise<void> {
     const one = request(project.file, project.choices);
+    if (this.cutLasted > SLOW) {
+      // A part that takes its time comes later: until then the one before stands with the new path.
+      const bytes = (await heavy.run({ verb: "path", ...one })).bytes("path");
+      if (!current()) return;
+      if (bytes) this.path.set(readPath(bytes));
+    }
     const check = await heavy.run({ verb: "check", ...one });
     if (!current()) return;
     this.tellCheck(check);
+    const began = performance.now();
     const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), cells: CELLS });
+    this.cutLasted = performance.now() - began;
     if (!current()) return;
     this.tellCut(cut);
     if (!this.translates.get()) return this.translation.set(undefined);

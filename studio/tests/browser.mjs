@@ -2,24 +2,31 @@
 
 import { chromium } from "playwright-core";
 import { existsSync } from "node:fs";
+import { TOKEN, loopback } from "./loopback.mjs";
 import { serve } from "./server.mjs";
 
 const WAYS = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 
 /** The browser, and the static page on a port of its own. */
 export async function begin() {
-  const site = await serve(process.env.STUDIO_SITE);
+  const folder = process.env.STUDIO_SITE;
+  const site = await serve(folder);
+  const binary = await serve(folder, loopback(folder));
   const executablePath = WAYS.find((way) => way && existsSync(way));
   const browser = await chromium.launch({
     executablePath,
     args: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"],
   });
-  return { site, browser, end: async () => (await browser.close(), await site.close()) };
+  const end = async () => {
+    await browser.close();
+    await Promise.all([site.close(), binary.close()]);
+  };
+  return { site, binary, browser, end };
 }
 
 /** A page in a world of its own. `faults` are errors that it told: each is a failure. */
-export async function open({ site, browser }, options = {}) {
-  const { width = 1280, height = 800, path = "", context: given, script, ...rest } = options;
+export async function open({ site, binary, browser }, options = {}) {
+  const { host = "worker", width = 1280, height = 800, path = "", context: given, script, ...rest } = options;
   const context =
     given ?? (await browser.newContext({ viewport: { width, height }, locale: "en-US", acceptDownloads: true, ...rest }));
   const page = await context.newPage();
@@ -27,7 +34,7 @@ export async function open({ site, browser }, options = {}) {
   page.on("pageerror", (error) => faults.push(String(error)));
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   if (script) await page.addInitScript(script);
-  await page.goto(site.url + path);
+  await page.goto(host === "worker" ? site.url + path : `${binary.url}#token=${TOKEN}`);
   await ready(page);
   return { page, context, faults };
 }

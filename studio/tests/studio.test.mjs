@@ -23,6 +23,12 @@ function page(name, options, body) {
   });
 }
 
+/** A test over both hosts of the engine. */
+function both(name, options, body) {
+  page(name, options, body);
+  page(`${name} (loopback)`, { ...options, host: "loopback" }, body);
+}
+
 async function projects(own) {
   await own.click("#projects-open");
   await own.locator("#projects-dialog[open]").waitFor();
@@ -40,7 +46,7 @@ page("the browser has WebGL 2", {}, async (own) => {
   assert.ok(await own.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null));
 });
 
-page("a first visit shows an example, coloured, checked, drawn and cut", {}, async (own) => {
+both("a first visit shows an example, coloured, checked, drawn and cut", {}, async (own) => {
   assert.equal(await value(own, "#project-name"), "pocket-spiral");
   assert.equal(await own.locator("#editor .c-code-g").first().textContent(), "G21");
   assert.ok((await own.locator("#editor .c-comment").count()) > 3);
@@ -70,8 +76,7 @@ page("nothing is drawn while nothing changes", {}, async (own) => {
   await own.waitForTimeout(1200);
   assert.equal(await own.getAttribute("#canvas", "data-frames"), frames);
   await own.click('[data-side="top"]');
-  await own.waitForTimeout(200);
-  assert.notEqual(await own.getAttribute("#canvas", "data-frames"), frames);
+  await own.waitForFunction((before) => document.querySelector("#canvas").dataset.frames !== before, frames);
 });
 
 page("raw part and tools are stated, and the part is another", {}, async (own) => {
@@ -99,7 +104,7 @@ page("raw part and tools are stated, and the part is another", {}, async (own) =
   assert.match(await own.locator("#setup-pane .fields").textContent(), /500.0 × 500.0/);
 });
 
-page("a problem stands in its line and in the list, and a click goes there", {}, async (own) => {
+both("a problem stands in its line and in the list, and a click goes there", {}, async (own) => {
   await type(own, SQUARE.replace("Y50.\n", "Y5O.\n"));
   const row = own.locator("#problems-list button").first();
   assert.equal(await row.getAttribute("data-line"), "8");
@@ -155,7 +160,7 @@ page("a click on the part goes to the block that cut it", {}, async (own) => {
   assert.ok(found.has("8") || found.has("10"), [...found].join());
 });
 
-page("the part is cut forwards and backwards with the moment", {}, async (own) => {
+both("the part is cut forwards and backwards with the moment", {}, async (own) => {
   await type(own, SQUARE);
   const cut = async () => (await own.waitForTimeout(400), Number(await own.getAttribute("#canvas", "data-cut")));
   const whole = await cut();
@@ -211,7 +216,7 @@ page("charts stand on the axis of time, and a click on one goes to the moment", 
   assert.equal(await own.locator("#charts .chart-now:visible").count(), 3);
 });
 
-page("a program is translated beside its source, and verified", {}, async (own) => {
+both("a program is translated beside its source, and verified", {}, async (own) => {
   await type(own, SQUARE);
   await own.click("#tab-translate");
   await own.selectOption("#to", "siemens");
@@ -365,8 +370,7 @@ page("keys reach all of it", {}, async (own) => {
   await own.locator("#canvas").focus();
   const frames = await own.getAttribute("#canvas", "data-frames");
   await own.keyboard.press("2");
-  await own.waitForTimeout(200);
-  assert.notEqual(await own.getAttribute("#canvas", "data-frames"), frames);
+  await own.waitForFunction((before) => document.querySelector("#canvas").dataset.frames !== before, frames);
   await own.locator("#tab-machine").focus();
   await own.keyboard.press("ArrowRight");
   assert.ok(await own.isVisible("#setup-pane"));
@@ -388,6 +392,11 @@ page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
   }
   await own.click('#phone [data-goto="machine"]');
   assert.ok((await pixels(own, "#canvas", { feed: "--c-move-feed" })).feed > 50);
+});
+
+test("the binary's engine works for nobody without the token", async () => {
+  const answer = await fetch(`${world.binary.url}engine/quick/run`, { method: "POST", body: "{}" });
+  assert.equal(answer.status, 401);
 });
 
 test("where WebGL 2 is missing, the page says so and does the rest", async () => {
@@ -424,7 +433,7 @@ test("two tabs on one project: the other one takes over what was saved", async (
   await context.close();
 });
 
-page("a program of 60,000 moves is drawn, and newer work takes the place of older", {}, async (own) => {
+both("a program of 60,000 moves is drawn, and newer work takes the place of older", {}, async (own) => {
   const began = Date.now();
   await type(own, long(60_000));
   assert.equal(await own.getAttribute("#canvas", "data-pieces"), "60002");

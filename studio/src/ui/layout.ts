@@ -22,17 +22,22 @@ export function fillWords(): void {
   }
 }
 
+const system = matchMedia("(prefers-color-scheme: dark)");
+
 /** Light or dark: the system's, until the button was used. */
+export function showTheme(): void {
+  const dark = (stored("ncc-theme") ?? (system.matches ? "dark" : "light")) === "dark";
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  byId("theme").replaceChildren(icon(dark ? "sun" : "moon"));
+}
+
+/** The button, and the system's changes. */
 export function wireTheme(changed: () => void): void {
-  const system = matchMedia("(prefers-color-scheme: dark)");
-  const button = byId("theme");
   const show = () => {
-    const dark = (stored("ncc-theme") ?? (system.matches ? "dark" : "light")) === "dark";
-    document.documentElement.dataset.theme = dark ? "dark" : "light";
-    button.replaceChildren(icon(dark ? "sun" : "moon"));
+    showTheme();
     changed();
   };
-  button.addEventListener("click", () => {
+  byId("theme").addEventListener("click", () => {
     storeItem("ncc-theme", document.documentElement.dataset.theme === "dark" ? "light" : "dark");
     show();
   });
