@@ -1,14 +1,14 @@
-//! The states of a map after any move, in both directions.
+//! Undo and redo for a height map: its state after any move, forwards and backwards.
 //!
-//! Every [`STRIDE`] moves what has changed is kept, as it was and as it is. From one such place to another, those are put
-//! in; from there, at most so many moves are made again.
+//! After every [`STRIDE`] moves, `keep` stores each changed cell with its old and its new value. `show` applies these
+//! changes from stride to stride. The caller then cuts the moves from the stride to the wanted one: fewer than [`STRIDE`].
 
 use crate::map::{HeightMap, TILE};
 
-/// Moves from one place to the next that can be gone to at once.
+/// Moves between two stored states.
 pub(crate) const STRIDE: usize = 5_000;
 
-/// A cell that has changed.
+/// A cell that has changed in a stride; old and new value.
 #[derive(Clone, Copy, Debug)]
 struct Change {
     cell: u32,
@@ -16,15 +16,15 @@ struct Change {
     last: [u32; 2],
 }
 
-/// What has changed in a map from stride to stride.
+/// The changes of each stride.
 #[derive(Clone, Debug)]
 pub(crate) struct History {
     strides: Vec<Vec<Change>>,
-    /// The map at the last of these places that is not behind the one that is shown.
+    /// The map at stride `at`.
     base: HeightMap,
-    /// How many strides that is from the start.
+    /// Strides from the start to `base`.
     at: usize,
-    /// Tiles that may differ from it.
+    /// Tiles in which the shown map may differ from `base`.
     dirty: Vec<bool>,
     /// Tiles along X.
     across: usize,
@@ -36,7 +36,7 @@ impl History {
         History { strides: Vec::new(), base: map.clone(), at: 0, dirty: vec![false; across * along], across }
     }
 
-    /// Cells of these columns and rows may change.
+    /// Marks the tiles of these columns and rows: their cells may change.
     pub(crate) fn touch(&mut self, columns: &std::ops::Range<usize>, rows: &std::ops::Range<usize>) {
         if columns.is_empty() || rows.is_empty() {
             return;
@@ -47,17 +47,17 @@ impl History {
         }
     }
 
-    /// The stride that is shown.
+    /// The stride of `base`.
     pub(crate) fn at(&self) -> usize {
         self.at
     }
 
-    /// How many there are.
+    /// Stored strides.
     pub(crate) fn len(&self) -> usize {
         self.strides.len()
     }
 
-    /// Keeps the state of a map as that of the next stride.
+    /// Stores the changes of a map since the last stride as those of the next one.
     pub(crate) fn keep(&mut self, map: &HeightMap) {
         let mut changes = Vec::new();
         self.each_dirty(|base, cells| {
@@ -96,7 +96,7 @@ impl History {
         }
     }
 
-    /// Shows the cells of tiles that may differ from the base, row by row; after that none does.
+    /// Calls `shown` with `base` and the cells of each marked tile, row by row, and clears the marks.
     fn each_dirty(&mut self, mut shown: impl FnMut(&mut HeightMap, std::ops::Range<usize>)) {
         let [width, height] = self.base.grid.cells;
         for tile in 0..self.dirty.len() {
@@ -111,7 +111,7 @@ impl History {
         }
     }
 
-    /// Bytes that it takes.
+    /// Memory of the stored changes, bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.strides.iter().map(|all| all.len() * size_of::<Change>()).sum()
     }
