@@ -104,6 +104,8 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
         Verb::Fmt(args) => return ended(fmt::run(args, &known, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
         Verb::Simulate(args) => return ended(simulate::run(args, &known, &mut err), &mut err),
+        #[cfg(feature = "studio")]
+        Verb::Studio(args) => studio(args, &mut err),
         Verb::Verify(args) => return ended(review::verify::run(args, &known, &mut err), &mut err),
         Verb::Diff(args) => return ended(review::diff::run(args, &known, &mut err), &mut err),
         Verb::GitDiff(args) => return ended(review::diff::git::run(args, &known, &mut err), &mut err),
@@ -127,6 +129,25 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
         Ok(()) => Exit::Done,
         Err(problem) => fail(&problem, &mut err, false),
     }
+}
+
+/// Serves the page, and opens it.
+#[cfg(feature = "studio")]
+fn studio(args: &crate::args::Studio, err: &mut dyn Write) -> Result<(), Problem> {
+    let shown = args.programs.display().to_string();
+    let studio = ncc_studio::Studio::open(args.port, &args.programs).map_err(|e| match e.kind() {
+        io::ErrorKind::AddrInUse | io::ErrorKind::PermissionDenied if args.port > 0 => {
+            Problem::usage(format!("port {} is not free", args.port), "name another one, or none")
+        }
+        _ => Problem::file("open", &shown, &e),
+    })?;
+    let address = studio.address();
+    print(&format!("{address}\n"))?;
+    // Without a browser the address is there to be copied.
+    if !args.no_open && open::that_detached(&address).is_err() {
+        let _ = writeln!(err, "no browser could be opened: open the address above");
+    }
+    studio.serve().map_err(|e| Problem::file("serve", &shown, &e))
 }
 
 /// Prints a dictionary to begin with.

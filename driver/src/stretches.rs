@@ -99,7 +99,7 @@ pub(crate) fn stand(stretches: &[Stretch], body: &[Stmt]) -> Option<Vec<Reshaped
         let behind = body.get(at + 1..at + 1 + own.behind.len())?;
         let mut became = Became { lines, shapes: Vec::new() };
         let own_stmts = own.before.iter().chain(&own.behind);
-        if !own_stmts.zip(before.iter().chain(behind)).all(|(own, there)| became.is_same(own, there)) {
+        if !own_stmts.zip(before.iter().chain(behind)).all(|(own, other)| became.is_same(own, other)) {
             return None;
         }
         all.push(own.lines.shapes().iter().map(|shape| became.of(shape)).collect::<Option<_>>()?);
@@ -128,11 +128,11 @@ struct Became<'l> {
 
 impl Became<'_> {
     /// Whether a statement is as it was, but for what became of its shapes, which is the same wherever they are.
-    fn is_same(&mut self, own: &Stmt, there: &Stmt) -> bool {
+    fn is_same(&mut self, own: &Stmt, other: &Stmt) -> bool {
         let mut own = own.clone();
         self.lines.settle_as_these(&mut own);
         if let (Op::StraightFeed(from), Op::StraightFeed(to))
-        | (Op::StraightTraverse(from), Op::StraightTraverse(to)) = (&mut own.op, &there.op)
+        | (Op::StraightTraverse(from), Op::StraightTraverse(to)) = (&mut own.op, &other.op)
         {
             for (from, to) in from.to.axes.iter_mut().zip(&to.to.axes) {
                 let (Some(from), Some(to)) = (from, to) else { continue };
@@ -144,13 +144,13 @@ impl Became<'_> {
                 }
             }
         }
-        if let (Op::SetFeedRate(from @ Expr::Node(_)), Op::SetFeedRate(to)) = (&mut own.op, &there.op) {
+        if let (Op::SetFeedRate(from @ Expr::Node(_)), Op::SetFeedRate(to)) = (&mut own.op, &other.op) {
             if !self.became(WordRole::Feed, from, to) {
                 return false;
             }
             *from = to.clone();
         }
-        own.op == there.op && own.skip == there.skip && own.joined == there.joined
+        own.op == other.op && own.skip == other.skip && own.joined == other.joined
     }
 
     /// Whether a word has become this, with the same numbers, as all of its shape have.

@@ -454,7 +454,7 @@ faults! {
     CycleExpanded { kind: Box<str> } = 405, verdict(Verdict::Expanded);
     /// A subprogram written out where it is called.
     CallExpanded { name: Box<str>, times: u32 } = 406, verdict(Verdict::Expanded);
-    /// Block-skip levels that the target cannot tell apart.
+    /// A block-skip level that the target lacks: its block has the first level.
     SkipLevelLost { level: u8 } = 407, verdict(Verdict::Changed);
     /// Block numbers left out.
     NumbersLeftOut { count: u32 } = 408, verdict(Verdict::Reformatted);

@@ -85,8 +85,14 @@ impl From<&str> for Expected {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the names are the meaning")]
 pub enum Ranged {
-    /// A word of the program, or the name of a statement's value.
+    /// A word of the program.
     Word(Box<str>),
+    /// A value of a block, whose word is not known.
+    Unnamed,
+    /// A value beyond all that a word can hold; rounded towards zero, in the unit of the word.
+    TooLarge {
+        about: i64,
+    },
     Turns,
     Holes,
     PeckDepth,

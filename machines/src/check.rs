@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use ncc_dialects::{Dialect, Quantity, Role, SettingError, Settings};
+use ncc_dialects::{Dialect, Quantity, Role, SettingError, Settings, near};
 use ncc_ir::canon::Axis;
 
 use crate::fact::Fact;
@@ -24,6 +24,7 @@ pub(crate) fn check(schema: &Schema, dialect: &'static Dialect) -> Vec<ProfileEr
             found.add(Wrong::UnknownRow { row: key.get_ref().clone() }, key.span());
         }
     }
+    sources(schema, &mut found);
     numbers(schema, &mut found);
     axes(schema, &mut found);
     tables(schema, dialect, &mut found);
@@ -91,6 +92,25 @@ fn options(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
             };
             found.add(wrong, choice.span.clone());
         }
+    }
+}
+
+/// Tags that no fact names, where a fact names one that is nearly the same: one of the two is misspelt.
+fn sources(schema: &Schema, found: &mut Found) {
+    let is_tag = |name: &str| schema.sources.keys().any(|tag| tag.get_ref() == name);
+    let facts = schema.facts();
+    let unknown = |name: &str| !name.is_empty() && !name.contains(' ') && !is_tag(name);
+    for tag in schema.sources.keys() {
+        if facts.iter().any(|fact| fact.source == *tag.get_ref()) {
+            continue;
+        }
+        let names = facts.iter().map(|fact| fact.source.as_str()).filter(|name| unknown(name));
+        let Some(nearest) = near(tag.get_ref(), names).first().map(|name| (*name).to_owned()) else {
+            continue;
+        };
+        let fact = facts.iter().find(|fact| fact.source == nearest).map(|fact| fact.span.clone());
+        let wrong = Wrong::UnusedSource { tag: tag.get_ref().clone(), nearest };
+        found.0.push(ProfileError { related: fact, ..ProfileError::new(wrong, tag.span()) });
     }
 }
 

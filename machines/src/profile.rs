@@ -11,7 +11,7 @@ use ncc_time::{AxisFacts, Machine, ToolChangeOn};
 use crate::check::check;
 use crate::fact::Fact;
 use crate::schema::{ChangeOn, MCodeRow, Schema};
-use crate::table::{Stated, Table};
+use crate::table::Row;
 use crate::takes::Takes;
 use crate::wrong::{ProfileError, Wrong};
 
@@ -22,17 +22,6 @@ pub struct Profile {
     pub schema: Schema,
     /// The dictionary of its dialect, as it is without the profile.
     pub dialect: &'static Dialect,
-}
-
-/// A table of a profile with what is stated in it.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// How it is headed in the file.
-    pub head: &'static str,
-    /// What it holds.
-    pub about: &'static str,
-    /// Its keys and values.
-    pub facts: Vec<Stated>,
 }
 
 impl Profile {
@@ -203,20 +192,7 @@ impl Profile {
     /// Every table with fixed keys, in the order of the schema; of those that may stand several
     /// times, each.
     pub fn rows(&self) -> Vec<Row> {
-        fn row<T: Table>(table: &T) -> Row {
-            Row { head: T::HEAD, about: T::ABOUT, facts: table.stated() }
-        }
-        let s = &self.schema;
-        let mut rows = vec![row(&s.power_on), row(&s.rates), row(&s.times), row(&s.spindle)];
-        rows.extend(s.axis.iter().map(|a| row(a.get_ref())));
-        rows.extend(s.tool.iter().map(|t| row(t.get_ref())));
-        rows.extend(s.edge.iter().map(|e| row(e.get_ref())));
-        rows.extend(s.work_offset.iter().map(|w| row(w.get_ref())));
-        rows.extend(s.program.iter().map(|p| row(p.get_ref())));
-        rows.extend(s.m_code.iter().map(|m| row(m.get_ref())));
-        rows.extend(s.value.iter().map(|v| row(v.get_ref())));
-        rows.push(row(&s.emit));
-        rows
+        self.schema.rows()
     }
 }
 

@@ -12,7 +12,7 @@ use serde::de::Unexpected;
 use toml::Spanned;
 
 use crate::fact::Fact;
-use crate::table::{Words, kebab, table};
+use crate::table::{Row, Stated, Table, Tell, Words, kebab, table};
 use crate::takes::Takes;
 
 /// A profile as its file has it.
@@ -35,7 +35,7 @@ pub struct Schema {
     pub notes: String,
     /// Sources that facts name by a short tag.
     #[serde(default)]
-    pub sources: BTreeMap<String, String>,
+    pub sources: BTreeMap<Spanned<String>, String>,
     /// Options of the dialect's dictionary.
     #[serde(default)]
     pub options: BTreeMap<Spanned<String>, Fact<Choice>>,
@@ -79,6 +79,34 @@ pub struct Schema {
     /// The shop's choices for emitted programs.
     #[serde(default)]
     pub emit: Emit,
+}
+
+impl Schema {
+    /// Every table with fixed keys, in the order of the schema; of those that may stand several
+    /// times, each.
+    pub(crate) fn rows(&self) -> Vec<Row> {
+        fn row<T: Table>(table: &T) -> Row {
+            Row { head: T::HEAD, about: T::ABOUT, facts: table.stated() }
+        }
+        let s = self;
+        let mut rows = vec![row(&s.power_on), row(&s.rates), row(&s.times), row(&s.spindle)];
+        rows.extend(s.axis.iter().map(|a| row(a.get_ref())));
+        rows.extend(s.tool.iter().map(|t| row(t.get_ref())));
+        rows.extend(s.edge.iter().map(|e| row(e.get_ref())));
+        rows.extend(s.work_offset.iter().map(|w| row(w.get_ref())));
+        rows.extend(s.program.iter().map(|p| row(p.get_ref())));
+        rows.extend(s.m_code.iter().map(|m| row(m.get_ref())));
+        rows.extend(s.value.iter().map(|v| row(v.get_ref())));
+        rows.push(row(&s.emit));
+        rows
+    }
+
+    /// Every fact: those of its tables, and those of options and rows of the dictionary.
+    pub(crate) fn facts(&self) -> Vec<Stated> {
+        let options = self.options.values().map(|choice| choice.tell("options"));
+        let confirmed = self.confirmed.values().map(|yes| yes.tell("confirmed"));
+        options.chain(confirmed).chain(self.rows().into_iter().flat_map(|row| row.facts)).collect()
+    }
 }
 
 fn unnamed() -> Spanned<String> {

@@ -32,6 +32,17 @@ pub struct Stated {
     pub span: Range<usize>,
 }
 
+/// A table of a profile with what is stated in it.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// How it is headed in the file.
+    pub head: &'static str,
+    /// What it holds.
+    pub about: &'static str,
+    /// Its keys and values.
+    pub facts: Vec<Stated>,
+}
+
 /// A table with a fixed set of keys.
 pub trait Table {
     /// How it is headed in the file: `[times]`, or `[[axis]]` if there may be several.

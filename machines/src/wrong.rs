@@ -176,6 +176,13 @@ pub enum Wrong {
         /// What the dialect does not have.
         lacks: Lacks,
     },
+    /// A source that no fact names, though one names a source that is nearly the same and is not in the list.
+    UnusedSource {
+        /// The tag in the list.
+        tag: String,
+        /// The name in the fact.
+        nearest: String,
+    },
     /// A project file names a machine that is neither shipped nor a file.
     NoMachine {
         /// The name.
@@ -232,11 +239,12 @@ impl Wrong {
             Wrong::NoFile { .. } => 717,
             Wrong::NoRows => 718,
             Wrong::NoFolder { .. } => 719,
+            Wrong::UnusedSource { .. } => 720,
         }
     }
 
     /// Every code of a profile.
-    pub const CODES: &'static [u16] = &[701, 702, 703, 704, 705, 706, 707, 708, 709, 710, 711, 712, 713];
+    pub const CODES: &'static [u16] = &[701, 702, 703, 704, 705, 706, 707, 708, 709, 710, 711, 712, 713, 720];
 
     /// Every code of a project file that is none of a profile.
     pub const PROJECT_CODES: &'static [u16] = &[714, 715, 716, 717, 718, 719];

@@ -41,6 +41,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ncc-time",
         ],
     ),
+    ("studio/host", &["ncc-engine", "ncc-exec"]),
     (
         "engine",
         &[

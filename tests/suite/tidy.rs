@@ -16,7 +16,12 @@ pub(crate) fn files(folder: &str, endings: &[&str]) -> Vec<PathBuf> {
         let Ok(entries) = fs::read_dir(folder) else { return };
         for path in entries.filter_map(|e| Some(e.ok()?.path())) {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            if path.is_symlink() || name == ".git" || name == "target" || name == "proptest-regressions" {
+            if path.is_symlink()
+                || name == ".git"
+                || name == "target"
+                || name == "node_modules"
+                || name == "proptest-regressions"
+            {
                 continue;
             }
             if path.is_dir() {

@@ -16,10 +16,12 @@ pub(crate) struct TravelMet {
     pub(crate) noted: [Option<Unchecked>; AXES],
 }
 
-/// Findings by axis.
+/// Findings by axis, and the feed of moves without one.
 #[derive(Debug, Default)]
 pub(crate) struct FeedMet {
     pub(crate) axes: [Option<usize>; AXES],
+    /// Whether the active feed is made up by the check.
+    pub(crate) made_up: bool,
 }
 
 /// What the rules of the spindle remember.
@@ -31,9 +33,21 @@ pub(crate) struct SpindleMet {
     pub(crate) stopped_at: Option<Span>,
     /// Whether the tool in it probes.
     pub(crate) probes: bool,
+    /// The block that stopped it.
+    pub(crate) stop: Option<Span>,
 }
 
 impl SpindleMet {
+    /// The program has stopped it in a block.
+    pub(crate) fn stopped(block: Span) -> SpindleMet {
+        SpindleMet { stop: Some(block), ..SpindleMet::default() }
+    }
+
+    /// Another speed or tool: a stopped spindle still stands.
+    pub(crate) fn renewed(&self) -> SpindleMet {
+        SpindleMet { stop: self.stop, ..SpindleMet::default() }
+    }
+
     /// The program has stopped it at an angle.
     pub(crate) fn held() -> SpindleMet {
         SpindleMet { reported: true, ..SpindleMet::default() }

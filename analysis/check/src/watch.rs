@@ -282,12 +282,17 @@ impl Checker {
                 self.ended = true;
             }
             Kind::Attribute(Attribute::FeedRate(feed)) => {
-                self.watched.seen.feed = Known::Said;
-                feed::said(&mut self.watched, *feed, event.span);
+                if matches!(step.stmt.op.unwrapped(), Op::SetFeedRate(_)) {
+                    self.watched.feed.made_up = false;
+                }
+                if !self.watched.feed.made_up {
+                    self.watched.seen.feed = Known::Said;
+                    feed::said(&mut self.watched, *feed, event.span);
+                }
             }
             Kind::Attribute(Attribute::SpindleSpeed(revs)) => {
                 self.watched.seen.speed = Known::Said;
-                self.watched.spindle = SpindleMet::default();
+                self.watched.spindle = self.watched.spindle.renewed();
                 speed::said(&mut self.watched, *revs, event.span);
             }
             Kind::Attribute(Attribute::StartSpindle(_)) => {
@@ -297,7 +302,7 @@ impl Checker {
             }
             Kind::Attribute(Attribute::StopSpindle) => {
                 self.watched.seen.spindle = Known::Said;
-                self.watched.spindle = SpindleMet::default();
+                self.watched.spindle = SpindleMet::stopped(event.span);
                 self.watched.seen.switch_off(LeftOn::Spindle);
             }
             Kind::Attribute(Attribute::SelectTool(_) | Attribute::Hole | Attribute::Remark)

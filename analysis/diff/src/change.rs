@@ -121,7 +121,7 @@ pub struct Collector {
     shift: Option<usize>,
     before: [Option<u32>; 2],
     /// Differences that an earlier run has told: places and what.
-    told: std::collections::HashSet<(Change, u32, u32)>,
+    reported: std::collections::HashSet<(Change, u32, u32)>,
 }
 
 type Tapes<'a, 't> = [&'a Tape<'t>; 2];
@@ -135,7 +135,7 @@ impl Collector {
         self.before = [None; 2];
         for group in &self.groups {
             let at = |side: usize| group.blocks[side].first().copied().unwrap_or(u32::MAX);
-            self.told.insert((group.change, at(0), at(1)));
+            self.reported.insert((group.change, at(0), at(1)));
         }
     }
 
@@ -213,7 +213,7 @@ impl Collector {
     /// A new group; `None` if there are too many, or if it was told before.
     fn group(&mut self, change: Change, tool: i64, a: Option<&Record>, b: Option<&Record>) -> Option<usize> {
         let at = |record: Option<&Record>| record.map_or(u32::MAX, |record| record.at);
-        if self.told.contains(&(change, at(a), at(b))) {
+        if self.reported.contains(&(change, at(a), at(b))) {
             return None;
         }
         if self.groups.len() >= MOST_GROUPS {

@@ -92,7 +92,7 @@ impl Both<'_, '_> {
                 let (tape, other) = (&self.tapes[one], &self.tapes[1 - one]);
                 let Some(head) = tape.window().first() else { return false };
                 let by = |axis: usize| if one == 0 { -self.shift.by[axis] } else { self.shift.by[axis] };
-                let at = std::array::from_fn(|axis| other.stands[axis] + by(axis));
+                let at = std::array::from_fn(|axis| other.position[axis] + by(axis));
                 tape.styles.get(head.style as usize).is_some_and(|s| self.rules.measure.stays(head, s, &at))
             };
             match (stays(0), stays(1)) {
@@ -155,7 +155,7 @@ impl Both<'_, '_> {
             let tape = &self.tapes[side];
             let records = &tape.window()[from[side]..to[side]];
             let before = from[side].checked_sub(1).and_then(|i| tape.window().get(i));
-            let mut stands = before.map_or(tape.stands, |record| tape.place(record));
+            let mut stands = before.map_or(tape.position, |record| tape.place(record));
             let mut kept = Vec::with_capacity(records.len());
             for record in records {
                 let style = tape.styles.get(record.style as usize);
@@ -310,7 +310,7 @@ impl Both<'_, '_> {
         let tape = &self.tapes[side];
         match i.checked_sub(1).and_then(|i| tape.window().get(i)) {
             Some(record) => record.end,
-            None => [tape.stands[0], tape.stands[1], tape.stands[2]],
+            None => [tape.position[0], tape.position[1], tape.position[2]],
         }
     }
 

@@ -18,7 +18,7 @@ pub struct Tape<'t> {
     /// Messages, functions and other events of which a record has the place in this list.
     pub kept: Vec<Kind>,
     /// Positions of the axes before the next record, machine coordinates. The value of an axis that has not moved yet means nothing.
-    pub(crate) stands: [Nanos; AXES],
+    pub(crate) position: [Nanos; AXES],
 }
 
 impl<'t> Tape<'t> {
@@ -31,7 +31,7 @@ impl<'t> Tape<'t> {
             over: false,
             styles: Vec::new(),
             kept: Vec::new(),
-            stands: [0; AXES],
+            position: [0; AXES],
         }
     }
 
@@ -60,7 +60,7 @@ impl<'t> Tape<'t> {
 
     pub(crate) fn advance(&mut self, by: usize) {
         if let Some(last) = by.checked_sub(1).and_then(|last| self.window().get(last)).copied() {
-            self.stands = self.place(&last);
+            self.position = self.place(&last);
         }
         self.from += by;
     }

@@ -1,21 +1,23 @@
-//! Moves as the kernel takes them.
+//! The moves that the simulation cuts: lines and arcs of the tool's tip, with tool, time and line.
+//!
+//! Not here: making them from the events of an execution.
 
-/// How the tool goes.
+/// The path of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
-    /// Where it does not matter: it cuts nothing, and nothing is looked at.
+    /// Nothing is cut and nothing is looked at: the place says nothing of the part.
     Away,
-    /// Straight, in rapid.
+    /// A line at rapid.
     Rapid,
-    /// Straight, at feed.
+    /// A line at feed.
     Feed,
-    /// Along an arc or a helix, at feed.
+    /// An arc or a helix at feed.
     Arc {
-        /// Axes of its plane, first and second, and the normal: 0 is X, 1 is Y, 2 is Z.
+        /// First and second axis of its plane, and the axis normal to it: 0 is X, 1 is Y, 2 is Z.
         plane: [usize; 3],
         /// Its centre along the first and the second axis, mm.
         centre: [f64; 2],
-        /// Angle from start to end, radians: above zero from the first axis to the second.
+        /// Angle from start to end, radians; positive from the first axis towards the second.
         sweep: f64,
     },
 }
@@ -23,15 +25,15 @@ pub enum Way {
 /// A move of the tool's tip, in workpiece coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
-    /// How it goes.
+    /// Its path.
     pub way: Way,
-    /// Where it ends, X Y Z in mm.
+    /// End point X Y Z, mm.
     pub end: [f64; 3],
-    /// The tool, by its place in [`Setup::tools`](crate::Setup::tools).
+    /// Index of the tool in [`Setup::tools`](crate::Setup::tools).
     pub tool: usize,
     /// Whether the spindle turns.
     pub turns: bool,
-    /// When it is over, seconds from the start of the program.
+    /// End of the move, seconds from the start of the program.
     pub time: f64,
     /// Line of the program, from 1; 0 if not known.
     pub line: u32,

@@ -106,14 +106,14 @@ pub const WHOLE_PATH: u32 = u32::MAX;
 
 /// A machine that is being completed.
 struct Filling {
-    told: Vec<AssumedFact>,
+    assumed: Vec<AssumedFact>,
 }
 
 impl Filling {
     fn fill(&mut self, known: &mut Option<f64>, fact: Fact, axis: Option<Axis>, value: f64) {
         if known.is_none() {
             *known = Some(value);
-            self.told.push(AssumedFact { fact, axis, value });
+            self.assumed.push(AssumedFact { fact, axis, value });
         }
     }
 }
@@ -123,7 +123,7 @@ impl Machine {
     /// complete comes back as it is, with an empty list.
     pub fn assumed(&self, model: Model) -> (Machine, Vec<AssumedFact>) {
         let mut machine = self.clone();
-        let mut filling = Filling { told: Vec::new() };
+        let mut filling = Filling { assumed: Vec::new() };
         match model {
             Model::Ideal => {
                 let by_axes = Axis::ALL
@@ -158,12 +158,12 @@ impl Machine {
                 filling.fill(&mut machine.path_tolerance, Fact::PathTolerance, None, PATH_TOLERANCE);
                 if machine.exact_stop.is_none() {
                     machine.exact_stop = Some(false);
-                    filling.told.push(AssumedFact { fact: Fact::ExactStop, axis: None, value: 0.0 });
+                    filling.assumed.push(AssumedFact { fact: Fact::ExactStop, axis: None, value: 0.0 });
                 }
                 if machine.look_ahead.is_none() {
                     machine.look_ahead = Some(WHOLE_PATH);
                     let value = f64::from(WHOLE_PATH);
-                    filling.told.push(AssumedFact { fact: Fact::LookAhead, axis: None, value });
+                    filling.assumed.push(AssumedFact { fact: Fact::LookAhead, axis: None, value });
                 }
                 filling.fill(&mut machine.m_function, Fact::MFunction, None, 0.0);
                 filling.fill(&mut machine.block, Fact::Block, None, 0.0);
@@ -174,6 +174,6 @@ impl Machine {
             filling.fill(&mut machine.spindle_start, Fact::SpindleStart, None, 0.0);
             filling.fill(&mut machine.spindle_stop, Fact::SpindleStop, None, 0.0);
         }
-        (machine, filling.told)
+        (machine, filling.assumed)
     }
 }

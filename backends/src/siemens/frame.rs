@@ -1,4 +1,12 @@
-//! The chain of frames, and moves in machine coordinates.
+//! Emits the words of frames, and of moves in machine coordinates.
+//!
+//! ```text
+//! FrameStep::Rotate { XY, 30° }, added      AROT RPL=30
+//! FrameStep::Translate without a value      TRANS            clears the chain of frames
+//! ```
+//!
+//! Each word of a frame has a block of its own. The words are in the dictionary. Not here: which frames the target
+//! accepts (`frames` in the passes).
 
 use ncc_dialects::{Dialect, FrameWord, Meaning, NameMeaning, NameRole, NameRow, Quantity};
 use ncc_ir::canon::Axis;
@@ -22,13 +30,13 @@ impl Writer {
         Ok(&row.name)
     }
 
-    /// Empties the chain.
+    /// Clears the chain of frames.
     pub(super) fn clear_frames(&mut self, sink: &mut Sink) -> Result<(), Fault> {
         let word = self.frame_word(false, FrameWord::Translate)?;
         self.alone(word, sink)
     }
 
-    /// A step of the chain.
+    /// One frame: it replaces the chain, or is added to it.
     pub(super) fn frame(&mut self, frame: &Frame, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let (word, values) = match &frame.step {
             FrameStep::Translate(words) => {
@@ -71,7 +79,7 @@ impl Writer {
             }
         };
         match (values.is_empty(), frame.added) {
-            // Alone, every one of these words clears the chain.
+            // Each of these words without a value clears the chain.
             (true, true) => Ok(()),
             (true, false) => self.clear_frames(sink),
             (false, added) => {
@@ -81,7 +89,7 @@ impl Writer {
         }
     }
 
-    /// The next move is one in machine coordinates, with the tool's length counted or without it.
+    /// The next move is in machine coordinates. `length`: the tool length counts in them.
     pub(super) fn in_machine(&mut self, length: bool) -> Result<(), Fault> {
         if machine_row(self.dialect, length).is_none() {
             return Err(cannot(match length {
@@ -93,14 +101,14 @@ impl Writer {
         Ok(())
     }
 
-    /// The word of a move in machine coordinates: a control has one setting for the tool's length.
+    /// The word of a move in machine coordinates. A dictionary has one such word: with the tool length, or without.
     pub(super) fn machine_word(&self) -> Result<&'static str, Fault> {
         let row = [true, false].into_iter().find_map(|length| machine_row(self.dialect, length));
         Ok(&row.ok_or_else(|| cannot(MachineLack::CoordinatesCode))?.name)
     }
 }
 
-/// The word of machine coordinates in which the tool's length counts, or does not.
+/// The row of the word for machine coordinates. `length`: the tool length counts in them.
 fn machine_row(dialect: &'static Dialect, length: bool) -> Option<&'static NameRow> {
     dialect.name_for(NameMeaning::Code(Meaning::UseMachineCoordinates { length, rapid: false }))
 }

@@ -138,6 +138,9 @@ pub enum Verb {
     Plot(Box<crate::plot::args::Plot>),
     /// Cut the part: what each tool removes, collisions, pictures, the part as a body
     Simulate(Box<crate::simulate::args::Simulate>),
+    /// Edit, see, cut and translate programs in the browser, on this computer
+    #[cfg(feature = "studio")]
+    Studio(Studio),
     /// Do two programs make the same cut? As strictly as a translation is verified; certificates
     Verify(Box<crate::review::args::Verify>),
     /// Do two programs make the same cut? If not, what differs?
@@ -160,6 +163,27 @@ pub enum Verb {
     Completions(Completions),
     /// Print the manual page of ncc, or of a verb
     Man(Man),
+}
+
+/// `ncc studio`.
+#[cfg(feature = "studio")]
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  ncc studio                   the programs of this folder
+  ncc studio part.nc           one program: it is saved back, and read again where another program changes it
+
+The page is served to this computer alone (127.0.0.1), to whoever has its address. Ctrl-C ends it.")]
+pub struct Studio {
+    /// A program, or a folder of programs
+    #[arg(value_name = "FILE|FOLDER", default_value = ".")]
+    pub programs: PathBuf,
+    /// The port [default: any that is free]
+    #[arg(long, value_name = "PORT", default_value = "0", hide_default_value = true)]
+    pub port: u16,
+    /// Print the address, and leave it to the user to open it
+    #[arg(long)]
+    pub no_open: bool,
 }
 
 /// `ncc translate`.

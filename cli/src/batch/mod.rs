@@ -242,7 +242,7 @@ fn translate_all(bench: &Bench, err: &mut dyn WriteColor) -> Result<(Vec<Row>, V
     let took = |_: usize, done: Done| {
         progress.aside(|| {
             // If nobody can read it, there is nobody to tell.
-            let _ = as_write(err).write_all(done.told.as_slice());
+            let _ = as_write(err).write_all(done.messages.as_slice());
         });
         rows.push(done.row);
         held.push(done.held);

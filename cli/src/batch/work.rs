@@ -15,7 +15,7 @@ use ncc_driver::job::{Failure, Job, Outcome};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::provenance::trace::Asked;
 use ncc_driver::questions::of_translation;
-use ncc_driver::render::human::told;
+use ncc_driver::render::human::reported;
 use ncc_driver::render::{About, json, questions};
 use ncc_driver::source::{Source, include_path, not_milling};
 use ncc_driver::translate::{self, split, tools_by_name};
@@ -82,7 +82,7 @@ pub(super) struct Held {
 pub(super) struct Done {
     pub(super) row: Row,
     /// Messages for people.
-    pub(super) told: Buffer,
+    pub(super) messages: Buffer,
     pub(super) held: Vec<Held>,
 }
 
@@ -108,7 +108,7 @@ impl Bench<'_> {
         let item = &self.items[at];
         let mut done = Done {
             row: Row::new(item.path.display().to_string()),
-            told: if self.colour { Buffer::ansi() } else { Buffer::no_color() },
+            messages: if self.colour { Buffer::ansi() } else { Buffer::no_color() },
             held: Vec::new(),
         };
         if let Err(problem) = self.translated(at, item, &mut done) {
@@ -120,7 +120,7 @@ impl Bench<'_> {
             done.held.clear();
             if self.args.format == Format::Human {
                 // The summary and the exit code say so too.
-                let _ = problem.print(&mut done.told, false);
+                let _ = problem.print(&mut done.messages, false);
             }
         }
         done.row.seconds = (begun.elapsed().as_secs_f64() * 1e3).round() / 1e3;
@@ -145,17 +145,17 @@ impl Bench<'_> {
             done.row.questions.extend(serde_json::to_value(refusal.asked()).ok());
             match args.format {
                 // The summary and the exit code say so too.
-                Format::Human => drop(refusal.print(&mut done.told)),
+                Format::Human => drop(refusal.print(&mut done.messages)),
                 Format::Json => done.row.messages.extend(serde_json::to_value(refusal.entry()).ok()),
             }
             return Ok(());
         }
         if let Some(note) = not_milling::note(&source).filter(|_| say) {
-            let _ = writeln!(done.told, "{note}");
+            let _ = writeln!(done.messages, "{note}");
         }
         let (from, rivals) = match order.named {
             Some(dialect) => (dialect, Vec::new()),
-            None => recognised::recognise_all(&mut source, say, self.known, &mut done.told)?,
+            None => recognised::recognise_all(&mut source, say, self.known, &mut done.messages)?,
         };
         done.row.from = Some(from.id.clone());
         done.row.project = source.project.as_deref().cloned();
@@ -184,7 +184,7 @@ impl Bench<'_> {
         let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
         match args.format {
             // Messages that cannot be kept change nothing about what was done.
-            Format::Human => drop(tell(args, &mut about, &outcome, &mut done.told)),
+            Format::Human => drop(tell(args, &mut about, &outcome, &mut done.messages)),
             Format::Json => {
                 let entries = json::entries(&mut about, &outcome.diagnostics, args.telling.loudness());
                 let entries = entries.map_err(|e| Problem::file("read", &source.shown, &e))?;
@@ -192,7 +192,7 @@ impl Bench<'_> {
             }
         }
         if outcome.release == Err(Failure::Refused) && !outcome.is_asked(&job) && say {
-            let _ = doubt_dialect(&mut source, &job, self.known, &mut done.told);
+            let _ = doubt_dialect(&mut source, &job, self.known, &mut done.messages);
         }
         Ok(())
     }
@@ -240,7 +240,7 @@ impl Bench<'_> {
             row.reason = Some(format!("line {}: {}", asked.place.line, asked.question));
             return Ok(());
         }
-        let first = told(job, &outcome.diagnostics, ncc_driver::render::Loudness::Quiet);
+        let first = reported(job, &outcome.diagnostics, ncc_driver::render::Loudness::Quiet);
         let first = first.first().copied().or(outcome.diagnostics.last());
         let Some(first) = first else { return Ok(()) };
         let lines = about.lines(std::iter::once(first)).map_err(unread)?;

@@ -87,7 +87,7 @@ pub fn run(args: &Doctor, known: &DialectRegistry, err: &mut dyn WriteColor) -> 
         false => human::print(err, &mut about, &others, Loudness::Quiet),
     };
     let asked = questions(&mut about, &outcome).map_err(cannot_read)?;
-    let text = told(&about, &others, &asked);
+    let text = questions_by_machine(&about, &others, &asked);
     files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;
     for (side, path) in [(Side::From, &args.write_from), (Side::To, &args.write_to)] {
         let Some(path) = path else { continue };
@@ -236,7 +236,7 @@ fn stem(path: &Path) -> String {
 }
 
 /// The questions, grouped by machine.
-fn told(about: &About, others: &[Diagnostic], asked: &[Question]) -> String {
+fn questions_by_machine(about: &About, others: &[Diagnostic], asked: &[Question]) -> String {
     let (from, to): (&Settings, &Settings) = (&about.job.from, &about.job.to);
     let mut text = format!("{}: {} to {}, ", about.name, from.dialect.id, to.dialect.id);
     text.push_str(&match asked.len() {

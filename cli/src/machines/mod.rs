@@ -129,7 +129,10 @@ pub(crate) fn print_as(
         let said = words(&error.wrong, schemas);
         let mut labels = vec![Label::primary((), error.span.clone()).with_message(said.label)];
         if let Some(related) = &error.related {
-            labels.push(Label::secondary((), related.clone()).with_message("the first one"));
+            labels.push(
+                Label::secondary((), related.clone())
+                    .with_message(said.related.unwrap_or_else(|| "the first one".to_owned())),
+            );
         }
         let boxed = Boxed::new(severity)
             .with_code(format!("NC{:04}", error.wrong.code()))

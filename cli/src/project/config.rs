@@ -153,7 +153,7 @@ fn of_folder(
     // Warnings that cannot be written change nothing about what is shown.
     let _ = machines::print_as(Severity::Warning, SCHEMAS, &file.shown, &file.text, &empty, err);
     for name in names.iter().flatten() {
-        file.project.row(name).map_err(|wrong| file.wrong(&[wrong], err))?;
+        file.project.row(name).map_err(|wrong| file.report(&[wrong], err))?;
     }
     Ok(text)
 }

@@ -56,7 +56,7 @@ impl Projects {
         let row = match look {
             Look::Named(name) => loaded.project.row_by_name(name),
             _ => match below_of(&loaded.path, &start.join(below)) {
-                Some(path) => loaded.project.row(&path).map_err(|wrong| loaded.wrong(&[wrong], err))?,
+                Some(path) => loaded.project.row(&path).map_err(|wrong| loaded.report(&[wrong], err))?,
                 None => None,
             },
         };
@@ -151,17 +151,17 @@ fn load(path: PathBuf, known: &DialectRegistry, err: &mut dyn WriteColor) -> Res
     })?;
     let project = match Project::parse(&text, &|id| known.get(id)) {
         Ok(project) => project,
-        Err(wrong) => return Err(told(&shown, &text, &wrong, err)),
+        Err(wrong) => return Err(report_faults(&shown, &text, &wrong, err)),
     };
     let loaded = Loaded { path, shown, text, sha256, project };
     let mut wrong: Vec<ProfileError> =
         loaded.project.rows.iter().flat_map(|row| loaded.not_there(row, known)).collect();
     wrong.sort_by_key(|error| error.span.start);
-    if wrong.is_empty() { Ok(loaded) } else { Err(loaded.wrong(&wrong, err)) }
+    if wrong.is_empty() { Ok(loaded) } else { Err(loaded.report(&wrong, err)) }
 }
 
 /// Prints what is wrong with a file.
-fn told(shown: &str, text: &str, wrong: &[ProfileError], err: &mut dyn WriteColor) -> Problem {
+fn report_faults(shown: &str, text: &str, wrong: &[ProfileError], err: &mut dyn WriteColor) -> Problem {
     // If stderr cannot be written, the exit code has to say it all.
     let _ = machines::print_as(Severity::Error, SCHEMAS, shown, text, wrong, err);
     let first = wrong.first().map(|error| machines::place(text, error.span.start)).unwrap_or_default();
@@ -183,8 +183,8 @@ impl Loaded {
         self.text.get(..at).unwrap_or_default().matches('\n').count() + 1
     }
 
-    pub(super) fn wrong(&self, wrong: &[ProfileError], err: &mut dyn WriteColor) -> Problem {
-        told(&self.shown, &self.text, wrong, err)
+    pub(super) fn report(&self, wrong: &[ProfileError], err: &mut dyn WriteColor) -> Problem {
+        report_faults(&self.shown, &self.text, wrong, err)
     }
 
     /// A path that is written in it, from the working folder.

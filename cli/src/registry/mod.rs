@@ -102,7 +102,7 @@ impl DialectRegistry {
             }
             Err(error) => {
                 let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
-                Err(told(&error, &names, &borrowed, out))
+                Err(report_fault(&error, &names, &borrowed, out))
             }
         }
     }
@@ -338,7 +338,12 @@ fn close(a: &str, b: &str) -> bool {
 
 /// Tells what is wrong with a dictionary: as a box with the offending row where `out` can take one,
 /// else in the problem's own words.
-fn told(error: &DialectError, names: &[String], texts: &[&str], out: Option<&mut dyn WriteColor>) -> Problem {
+fn report_fault(
+    error: &DialectError,
+    names: &[String],
+    texts: &[&str],
+    out: Option<&mut dyn WriteColor>,
+) -> Problem {
     let silent = Problem { exit: Exit::Usage, message: String::new(), help: Vec::new() };
     let words = worded(error, names, texts);
     if let (Some(out), Some(place)) = (out, &error.place)
@@ -425,11 +430,11 @@ mod tests {
         let text =
             "id = \"shop\"\ntitle = \"\"\nbase = \"fanuc\"\n[[cycle]]\ncode = \"G81\"\nremove = true\n";
         let error = load(&[text]).unwrap_err();
-        let problem = told(&error, &["shop.toml".to_owned()], &[text], None);
+        let problem = report_fault(&error, &["shop.toml".to_owned()], &[text], None);
         assert!(problem.message.starts_with("fanuc (built in):"), "{}", problem.message);
         assert!(problem.message.ends_with(": row G81: has no [[cycle]] row (the base of shop.toml)"));
         let text = "id = \"shop\"\ntitle = \"\"\nbase = \"fanuc\"\n[block]\nblank = true\n";
-        let problem = told(&load(&[text]).unwrap_err(), &["shop.toml".to_owned()], &[text], None);
+        let problem = report_fault(&load(&[text]).unwrap_err(), &["shop.toml".to_owned()], &[text], None);
         assert!(problem.message.starts_with("shop.toml:5:1: unknown field `blank`"), "{}", problem.message);
     }
 }

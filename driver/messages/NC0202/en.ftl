@@ -1,7 +1,7 @@
 # A reason's entry lacks a label or a help: those of the first entry are shown.
 NC0202 = `{ $code }` is not supported
     .label = ncc does not translate it
-    .help = write this block another way, or edit it by hand
+    .help = write it with codes that ncc reads: `ncc dialects show { $source }`
     .help-m-code = if it has no effect on the cut, leave it out: `--m-code { $code }=drop`
     .help-m-code-target = if the target machine has it too: `--m-code { $code }=carry`; if it has another code for it: `--m-code { $code }=M…`
     .help-variant = if the control of this program has { $code }: `{ $options }`

@@ -1,5 +1,10 @@
 NC0209 = `{ $word }` is out of range
     .label = this word cannot have this value
+NC0209-unnamed = a value in this block is out of range
+    .label = no control takes it here
+NC0209-too-large = a value is too large
+    .label = it evaluates to { $value }
+    .help = check the variables and numbers in this block
 NC0209-turns = the number of turns is out of range
     .label = it must be whole, from 0, and not too large
 NC0209-holes = the number of holes is out of range

@@ -1,3 +1,3 @@
 NC0505 = the profile of { $machine } says otherwise
     .label = this needs { $fact }
-    .help = write this block another way, or correct the profile
+    .help = write this block without it, or correct the profile

@@ -71,7 +71,7 @@ pub fn drive(job: &Job, limits: Limits, skip: u16, source: &mut Source) -> io::R
     }
     let stmts = std::mem::take(&mut drive.batch.stmts);
     match drive.batch.whole {
-        true => drive.whole(stmts),
+        true => drive.finish_kept(stmts),
         false => drive.statements(&stmts),
     }
     Ok(drive.finish())
@@ -185,8 +185,8 @@ impl<'d> Drive<'d> {
         }
     }
 
-    /// The rest of a program, kept whole.
-    fn whole(&mut self, main: Vec<Stmt>) {
+    /// Executes the rest of a program, which is kept in memory.
+    fn finish_kept(&mut self, main: Vec<Stmt>) {
         self.exec.assume(&self.batch.assumed);
         let mut procedures = vec![self.batch.main(main)];
         procedures.append(&mut self.batch.procedures);

@@ -89,14 +89,14 @@ fn entry(program: Program) -> Entry {
 
 fn found(item: Item) -> Found {
     Found {
-        id: item.told.code,
+        id: item.reported.code,
         rule: item.name,
         severity: name(item.severity),
-        message: item.told.message,
-        entry: item.told.entry,
-        values: item.told.values,
-        place: item.told.place.into(),
-        related: item.told.related.into_iter().map(JsonPlace::from).collect(),
-        advice: item.told.advice,
+        message: item.reported.message,
+        entry: item.reported.entry,
+        values: item.reported.values,
+        place: item.reported.place.into(),
+        related: item.reported.related.into_iter().map(JsonPlace::from).collect(),
+        advice: item.reported.advice,
     }
 }

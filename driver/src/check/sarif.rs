@@ -89,7 +89,7 @@ fn level(severity: Severity) -> &'static str {
 }
 
 fn result(item: &Item, uri: &str, codes: &[u16]) -> Value {
-    let told = &item.told;
+    let told = &item.reported;
     let mut result = json!({
         "ruleId": told.code,
         "ruleIndex": codes.iter().position(|code| *code == item.code),

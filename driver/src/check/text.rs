@@ -26,8 +26,8 @@ pub fn write(out: &mut dyn WriteColor, program: &Program, loudness: Loudness) ->
         if *count > most(item) && loudness != Loudness::Verbose {
             continue;
         }
-        let boxed = boxed(&item.told, &program.lines);
-        term::emit_to_write_style(out, &Config::default(), &item.told.excerpt, &boxed)
+        let boxed = boxed(&item.reported, &program.lines);
+        term::emit_to_write_style(out, &Config::default(), &item.reported.excerpt, &boxed)
             .map_err(io::Error::other)?;
     }
     let mut more: BTreeMap<u16, usize> = BTreeMap::new();

@@ -20,7 +20,7 @@ pub struct Item {
     /// The rule's name; none of a message of the reader.
     pub name: Option<&'static str>,
     pub(crate) severity: Severity,
-    pub(crate) told: Told,
+    pub(crate) reported: Told,
 }
 
 /// What a call makes of findings, by their codes.
@@ -123,7 +123,7 @@ pub fn tell(graded: &Graded, job: &Job, source: &mut Source, course: Course) -> 
         let file = job.called.as_ref().and_then(|called| called.file(finding.span.start));
         let name = file.map_or(shown.as_str(), |file| file.name.as_str());
         let told = of_finding(finding, severity, source, &lines, name)?;
-        program.items.push(Item { code: rule.code(), name: Some(rule.name()), severity, told });
+        program.items.push(Item { code: rule.code(), name: Some(rule.name()), severity, reported: told });
     }
     for (rule, count) in &checked.left_out {
         if !graded.allow.contains(&rule.code()) {
@@ -141,10 +141,10 @@ pub fn tell(graded: &Graded, job: &Job, source: &mut Source, course: Course) -> 
         let mut about = About { job, name: &shown, source: &mut source.file };
         let mut told = about.tell(&lines, diagnostic)?;
         told.severity = heading(severity);
-        program.items.push(Item { code, name: None, severity, told });
+        program.items.push(Item { code, name: None, severity, reported: told });
     }
     program.count(Severity::Note, untold);
-    program.items.sort_by_key(|item| (item.told.place.span.start, item.code));
+    program.items.sort_by_key(|item| (item.reported.place.span.start, item.code));
     let line = |at: u32| lines.line(at).map_or(0, |line| line.number);
     program.not_checked = not_checked(&checked, program.dialect, &line);
     program.lines = lines;

@@ -45,7 +45,8 @@ pub(super) fn message(finding: &Finding) -> Message {
         }
         What::SpeedRange { speed, limit } => m.text("speed", decimal(*speed)).text("limit", decimal(*limit)),
         What::NoFeed | What::AfterJump => m,
-        What::SpindleStands => m.form("check"),
+        What::SpindleStands if finding.related.is_empty() => m.form("check"),
+        What::SpindleStands => m.form("stopped"),
         What::SpindleWithoutSpeed => m.form("speed"),
         What::NoLength { tool } => m.text("tool", tool.to_string()),
         What::OldLength { tool } => m.form("old").text("tool", tool.to_string()),
@@ -84,7 +85,8 @@ pub(super) fn message(finding: &Finding) -> Message {
     }
 }
 
-/// What was not checked, and why: a line each. `line` gives the number of a place's line.
+/// The checks that were left out, grouped by reason: (checks with commas between, reason). `line` gives the line number
+/// of a byte offset.
 pub fn not_checked(checked: &Checked, dialect: &str, line: &dyn Fn(u32) -> u64) -> Vec<(String, String)> {
     let mut told: Vec<(String, String)> = Vec::new();
     let mut tell = |what: Message, why: Message| {
@@ -177,11 +179,11 @@ mod tests {
         codes.dedup();
         assert_eq!(codes, Rule::CODES, "a rule without a sample");
         for what in all {
-            for more in [0, 1, 5] {
+            for (more, places) in [(0, 0), (1, 1), (5, 1)] {
                 let finding = Finding {
                     what: what.clone(),
                     span: Span::default(),
-                    related: Vec::new(),
+                    related: vec![Span::default(); places],
                     more,
                     at_entry: false,
                 };

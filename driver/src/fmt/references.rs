@@ -170,7 +170,7 @@ impl Look<'_> {
             _ => 0,
         };
         let program = match pieces.get(at..) {
-            Some([sign, number, ..]) if self.begins_program(sign.text(line)) => whole(number, line),
+            Some([sign, number, ..]) if self.begins_program(sign.text(line)) => whole_number(number, line),
             Some(_) | None => None,
         };
         let name = pieces.get(at).filter(|p| self.dialect.program.names && p.text(line).starts_with(b"<"));
@@ -224,7 +224,7 @@ impl Look<'_> {
         let (sign, number) = (pieces.get(at)?, pieces.get(at + 1)?);
         let optional = sign.text(line) == [letter];
         let main = self.dialect.family == Family::Sinumerik && sign.text(line) == b":";
-        let value = whole(number, line).filter(|_| optional || main)?;
+        let value = whole_number(number, line).filter(|_| optional || main)?;
         let rest = all.iter().find(|p| p.start >= number.end).map_or(number.end, |p| p.start);
         Some(Number {
             value,
@@ -243,7 +243,7 @@ impl Look<'_> {
         let mut numbers = 0;
         for (at, piece) in pieces.iter().enumerate() {
             let next = pieces.get(at + 1);
-            let value = next.and_then(|next| Some((whole(next, line)?, next.start, next.end)));
+            let value = next.and_then(|next| Some((whole_number(next, line)?, next.start, next.end)));
             match (piece.kind, value) {
                 (Kind::Key, Some((value, start, end))) if text(at) == b"GOTO" => {
                     self.reference(base, value, start, end, false);
@@ -355,7 +355,7 @@ impl Look<'_> {
             self.found.labels.insert((self.scope, label));
         }
         for (at, piece) in pieces.iter().enumerate().skip(head) {
-            let value = pieces.get(at + 1).and_then(|next| whole(next, line));
+            let value = pieces.get(at + 1).and_then(|next| whole_number(next, line));
             let jumps = at > 0 && text(at - 1).starts_with(b"GOTO") && pieces[at - 1].kind == Kind::Key;
             if at == head && numbered && text(at) == b"N" {
                 // Whichever of them is taken away, the other one is the block's.
@@ -401,7 +401,7 @@ impl Look<'_> {
 }
 
 /// The value of a number without a point.
-fn whole(piece: &Piece, line: &[u8]) -> Option<u32> {
+fn whole_number(piece: &Piece, line: &[u8]) -> Option<u32> {
     let text = piece.text(line);
     let digits = (piece.kind == Kind::Number).then(|| std::str::from_utf8(text).ok()).flatten()?;
     digits.bytes().all(|b| b.is_ascii_digit()).then(|| digits.parse().ok()).flatten()

@@ -11,6 +11,8 @@ pub struct Words {
     pub message: String,
     /// Why this place.
     pub label: String,
+    /// Why the other place, if it is not the first of two.
+    pub related: Option<String>,
     /// What to do.
     pub help: Option<String>,
 }
@@ -28,6 +30,7 @@ pub fn words(wrong: &Wrong, schemas: &str) -> Words {
     Words {
         message: message.headline(),
         label: message.label(),
+        related: message.related(),
         help: message.helps(help.map(|help| vec![help])).pop(),
     }
 }
@@ -57,6 +60,7 @@ fn message(wrong: &Wrong) -> Message {
         Wrong::NotOneToOne { function } => m.text("function", function.to_string()),
         Wrong::TooFine { key, most } => m.text("key", key.to_string()).text("most", most.to_string()),
         Wrong::NoForm { key, lacks } => m.form(lacks_form(*lacks)).text("key", key.to_string()),
+        Wrong::UnusedSource { tag, nearest } => m.text("tag", tag.as_str()).text("nearest", nearest.as_str()),
         Wrong::NoMachine { name, is_dialect: true, .. } => {
             let table = format!("{{ dialect = {name:?} }}");
             m.form("dialect").text("name", name.as_str()).text("table", table)
@@ -194,6 +198,7 @@ mod tests {
             Wrong::NoForm { key: "key", lacks: Lacks::BlockNumbers },
             Wrong::NoForm { key: "key", lacks: Lacks::Comments },
             Wrong::NoForm { key: "key", lacks: Lacks::ProgramNumbers },
+            Wrong::UnusedSource { tag: s(), nearest: s() },
             Wrong::NoMachine { name: s(), has: some(), is_dialect: true },
             Wrong::NoMachine { name: s(), has: some(), is_dialect: false },
             Wrong::Pattern { why: PatternFault::Empty },

@@ -40,14 +40,14 @@ pub struct Annotator {
     dialect: &'static Dialect,
     source: Recall,
     /// Lines of the source that were told last.
-    told: Vec<(usize, usize)>,
+    last_lines: Vec<(usize, usize)>,
     /// Whether the text handed over so far ends amid a line.
     open: bool,
 }
 
 impl Annotator {
     pub(crate) fn new(to: &'static Dialect) -> Annotator {
-        Annotator { dialect: to, source: Recall::new(), told: Vec::new(), open: false }
+        Annotator { dialect: to, source: Recall::new(), last_lines: Vec::new(), open: false }
     }
 
     /// Further text of the source, from this place on.
@@ -118,7 +118,7 @@ impl Annotator {
                 lines.push(place);
             }
         }
-        if lines.is_empty() || lines == self.told {
+        if lines.is_empty() || lines == self.last_lines {
             return Ok(());
         }
         let left = match self.dialect.block.longest as usize {
@@ -143,7 +143,7 @@ impl Annotator {
             text.truncate(at);
         }
         writer.beside(text.trim_end(), out);
-        self.told = lines;
+        self.last_lines = lines;
         Ok(())
     }
 }

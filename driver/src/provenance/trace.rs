@@ -210,11 +210,11 @@ impl Trace {
         Some(line)
     }
 
-    /// No further events are made before this place of the body.
+    /// Closes the rows of lines that end before this place of the body: no further events come before it.
     ///
     /// # Errors
     /// The anonymous file cannot be written.
-    pub fn over(&mut self, place: u64) -> io::Result<()> {
+    pub fn close_rows_before(&mut self, place: u64) -> io::Result<()> {
         // A line is over where the next one begins.
         while self.waiting.get(1).map_or(self.open, |next| next.start) <= place {
             let Some(Waiting { mut row, .. }) = self.waiting.pop_front() else { break };

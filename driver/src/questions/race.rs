@@ -266,7 +266,7 @@ pub fn race(
     if let Some(found) = compare(&mut runs) {
         return Ok(found);
     }
-    Ok(whole(&programs, &mut runs).or_else(|| compare(&mut runs)).unwrap_or_else(|| undecided(&runs)))
+    Ok(run_kept(&programs, &mut runs).or_else(|| compare(&mut runs)).unwrap_or_else(|| undecided(&runs)))
 }
 
 /// Executes a piece once for both, where both readings are the same plain moves and both controls are in one state;
@@ -319,8 +319,8 @@ fn pass_holes(a: &mut Run, b: &mut Run) -> bool {
     same
 }
 
-/// Runs what is kept whole, so that none of the two is far ahead.
-fn whole(programs: &[Option<Program>; 2], runs: &mut [Run; 2]) -> Option<Finish> {
+/// Runs both programs that are kept in memory, in turns: neither gets far ahead.
+fn run_kept(programs: &[Option<Program>; 2], runs: &mut [Run; 2]) -> Option<Finish> {
     let mut runners = programs.each_ref().map(|program| {
         program.as_ref().map(|program| {
             let mut runner = Runner::new(program);

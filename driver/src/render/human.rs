@@ -24,8 +24,8 @@ const LISTED: usize = 8;
 /// So many characters are underlined at most.
 const LONGEST_LABEL: usize = 80;
 
-/// Which diagnostics are told at this loudness, in the order of their places.
-pub fn told<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) -> Vec<&'d Diagnostic> {
+/// The diagnostics that are reported at this loudness, in the order of their places.
+pub fn reported<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) -> Vec<&'d Diagnostic> {
     let told = |d: &&Diagnostic| match (d.fault.gravity(), loudness) {
         _ if job.refuses(d) => true,
         (_, Loudness::Quiet) => false,
@@ -103,7 +103,7 @@ pub fn choose<'d>(
     counted: &[Counted],
     loudness: Loudness,
 ) -> (Vec<&'d Diagnostic>, BTreeMap<u16, usize>) {
-    let mut all = told(job, diagnostics, loudness);
+    let mut all = reported(job, diagnostics, loudness);
     let mut counts: BTreeMap<u16, usize> = BTreeMap::new();
     all.retain(|d| {
         let count = counts.entry(d.fault.code()).or_default();
@@ -142,7 +142,7 @@ pub fn print_counted(
     (diagnostics, counted): (&[Diagnostic], &[Counted]),
     loudness: Loudness,
 ) -> io::Result<()> {
-    let all = told(about.job, diagnostics, loudness);
+    let all = reported(about.job, diagnostics, loudness);
     let (groups, mut left_out) = grouped(all, about.job.called.as_ref());
     for counted in counted {
         let code = counted.fault.code();

@@ -9,7 +9,7 @@ use ncc_ir::rank::Rank;
 use serde::Serialize;
 
 use super::about::{About, Loudness, Place, Told};
-use super::human::{choose, told};
+use super::human::{choose, reported};
 use super::line::line;
 use super::messages::message::Value;
 use crate::job::Counted;
@@ -137,7 +137,7 @@ pub fn print(
 /// # Errors
 /// Reading the source.
 pub fn entries(about: &mut About, diagnostics: &[Diagnostic], loudness: Loudness) -> io::Result<Vec<Entry>> {
-    let shown = told(about.job, diagnostics, loudness);
+    let shown = reported(about.job, diagnostics, loudness);
     let lines = about.lines(shown.iter().copied())?;
     shown
         .into_iter()

@@ -47,7 +47,8 @@ pub fn tell(
 ) -> io::Result<()> {
     if loudness != Loudness::Quiet || outcome.release.is_err() {
         questions::print(out, about, &outcome.questions)?;
-        if !outcome.questions.is_empty() && !human::told(about.job, &outcome.diagnostics, loudness).is_empty()
+        if !outcome.questions.is_empty()
+            && !human::reported(about.job, &outcome.diagnostics, loudness).is_empty()
         {
             writeln!(out)?;
         }

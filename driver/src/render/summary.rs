@@ -9,7 +9,7 @@ use ncc_ir::rank::Rank;
 use ncc_ir::source::Span;
 
 use super::about::{About, Loudness};
-use super::human::told;
+use super::human::reported;
 use super::messages::facts::message;
 use super::messages::message::{Message, Part};
 use super::messages::words::Context;
@@ -214,7 +214,7 @@ fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> 
 
 fn failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
     write!(out, ", ")?;
-    let stopping = told(about.job, &outcome.diagnostics, Loudness::Quiet);
+    let stopping = reported(about.job, &outcome.diagnostics, Loudness::Quiet);
     let errors = stopping.iter().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
     let refuses = |fault: &Fault| about.job.refuses(&Diagnostic::new(fault.clone(), Span::default()));
     let counted = outcome.counted.iter().filter(|counted| refuses(&counted.fault));

@@ -333,7 +333,7 @@ impl<'r> Run<'r> {
         self.reader.finish(&mut self.batch);
         self.take_diagnostics();
         if self.batch.whole && self.errors == 0 {
-            self.whole();
+            self.finish_kept();
         } else {
             let stmts = std::mem::take(&mut self.batch.stmts);
             self.statements(&stmts);
@@ -361,8 +361,8 @@ impl<'r> Run<'r> {
         }
     }
 
-    /// The rest of a program, kept whole.
-    fn whole(&mut self) {
+    /// Executes the rest of a program, which is kept in memory.
+    fn finish_kept(&mut self) {
         let body = std::mem::take(&mut self.batch.stmts);
         let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);

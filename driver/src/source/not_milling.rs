@@ -83,7 +83,7 @@ fn span(shown: &Shown) -> Span {
 /// A program that is not for a mill, in words.
 #[derive(Debug)]
 pub struct Refusal {
-    told: Told,
+    reported: Told,
     lines: Lines,
     /// What it looks like: `a lathe program`.
     pub kind: String,
@@ -109,7 +109,7 @@ impl Refusal {
             })
             .collect();
         let message = message(finding);
-        let told = Told {
+        let reported = Told {
             code: format!("NC{CODE:04}"),
             severity: Severity::Error,
             verdict: None,
@@ -123,7 +123,7 @@ impl Refusal {
             advice: message.helps(Some(helps(finding))),
             excerpt,
         };
-        Ok(Refusal { told, lines, kind: kind(finding) })
+        Ok(Refusal { reported, lines, kind: kind(finding) })
     }
 
     /// Prints it for people.
@@ -131,14 +131,14 @@ impl Refusal {
     /// # Errors
     /// Writing.
     pub fn print(&self, err: &mut dyn WriteColor) -> io::Result<()> {
-        let boxed = boxed(&self.told, &self.lines);
-        term::emit_to_write_style(err, &Config::default(), &self.told.excerpt, &boxed)
+        let boxed = boxed(&self.reported, &self.lines);
+        term::emit_to_write_style(err, &Config::default(), &self.reported.excerpt, &boxed)
             .map_err(io::Error::other)
     }
 
     /// It as a message for programs.
     pub fn entry(&self) -> Entry {
-        Entry::of(&self.told)
+        Entry::of(&self.reported)
     }
 
     /// The same as a line.
@@ -154,7 +154,7 @@ impl Refusal {
             taken,
         };
         Asked::of_refusal(
-            &self.told,
+            &self.reported,
             [
                 answer(None, looks("not-translated").text("looks", &self.kind).headline(), true),
                 answer(Some("--assume milling"), looks("translated").headline(), false),
@@ -165,8 +165,8 @@ impl Refusal {
     /// It in one line, with its place.
     pub fn reason(&self) -> String {
         looks("reason")
-            .text("line", self.told.place.start.0.to_string())
-            .text("reason", &self.told.message)
+            .text("line", self.reported.place.start.0.to_string())
+            .text("reason", &self.reported.message)
             .headline()
     }
 }

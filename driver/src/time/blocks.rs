@@ -34,8 +34,8 @@ impl Blocks {
         Blocks { base: 0, number: 1, starts: Vec::new(), last: None }
     }
 
-    /// Of a source that is kept whole.
-    pub fn whole(text: &[u8]) -> Blocks {
+    /// The blocks of a source that is kept in memory.
+    pub fn of_text(text: &[u8]) -> Blocks {
         let mut starts = vec![0];
         starts.extend(memchr::memchr_iter(b'\n', text).map(|end| end as u32 + 1));
         Blocks { starts, ..Blocks::new() }
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn a_whole_source_is_indexed() {
         let text = b"G0\n\nG1 X1\nM30";
-        let mut blocks = Blocks::whole(text);
+        let mut blocks = Blocks::of_text(text);
         for (place, line) in [(10, (4, "M30")), (0, (1, "G0")), (3, (2, "")), (4, (3, "G1 X1"))] {
             assert_eq!(said(&mut blocks, text, place), Some((line.0, line.1.to_owned())));
         }

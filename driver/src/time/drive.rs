@@ -248,7 +248,7 @@ pub fn drive(
         let mut text = Vec::new();
         source.file.seek(SeekFrom::Start(0))?;
         source.file.read_to_end(&mut text)?;
-        drive.whole(&text, watch)?;
+        drive.finish_kept(&text, watch)?;
     } else {
         let stmts = std::mem::take(&mut drive.batch.stmts);
         drive.statements(&stmts, &[])?;
@@ -393,8 +393,8 @@ impl<'d> Drive<'d> {
         Ok(())
     }
 
-    /// The rest of a program, kept whole.
-    fn whole(&mut self, text: &[u8], watch: &mut dyn Watch) -> io::Result<()> {
+    /// Executes the rest of a program, which is kept in memory.
+    fn finish_kept(&mut self, text: &[u8], watch: &mut dyn Watch) -> io::Result<()> {
         let body = std::mem::take(&mut self.batch.stmts);
         let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);
@@ -405,7 +405,7 @@ impl<'d> Drive<'d> {
         if self.errors > 0 {
             return Ok(());
         }
-        self.blocks = Blocks::whole(text);
+        self.blocks = Blocks::of_text(text);
         self.assume(self.batch.assumed);
         for (asked, at) in asked_of_the_machine(&program) {
             self.take(as_stated(&asked, at));

@@ -59,7 +59,7 @@ impl<'j> Judge<'j> {
 
     fn judge_by(&self, mut verifier: Verifier, text: &[u8]) -> Result<Verified, Diagnostic> {
         verifier.take(&self.outcome.diagnostics, self.job);
-        match verifier.whole(&self.source, text, 0, &self.inherited) {
+        match verifier.verify_rest(&self.source, text, 0, &self.inherited) {
             Ok(()) => Ok(verifier.covered()),
             Err(Stop::Source(diagnostic) | Stop::Target(diagnostic)) => Err(diagnostic),
         }

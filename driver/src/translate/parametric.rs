@@ -124,32 +124,32 @@ pub fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
     let caps = job.to.caps();
     leave_out_output(program, &caps, found);
     ran_whole("leave-out-output", program);
-    let opens = caps.flow.computes.as_ref().is_some_and(|there| there.output_opened);
+    let opens = caps.flow.computes.as_ref().is_some_and(|target| target.output_opened);
     if job.from.dialect.id != job.to.dialect.id {
         found.extend(output_elsewhere(program, opens));
     }
-    let Some(there) = caps.flow.computes else { return };
-    let Some(alarms) = &there.alarms else { return };
+    let Some(computes) = caps.flow.computes else { return };
+    let Some(alarms) = &computes.alarms else { return };
     alarm_numbers::in_its_characters(program, alarms, found);
     ran_whole("alarm-texts", program);
     if job.from.dialect.id != job.to.dialect.id {
-        alarm_numbers::run(program, alarms, there.has(ComputeFeature::CallOf), found);
+        alarm_numbers::run(program, alarms, computes.has(ComputeFeature::CallOf), found);
         ran_whole("alarm-numbers", program);
     }
 }
 
-/// Says a program so. `stands` is what holds where it begins. What holds in it, and which variables became which,
-/// comes back.
+/// Legalises a program that computes for the target. `start` holds the modes active at its first statement. Returns the
+/// facts of its statements, and the renamed variables.
 pub fn legalise_parametric(
     job: &Job,
     program: &mut Program,
-    there: &Computes,
-    stands: &Tracker,
+    target: &Computes,
+    start: &Tracker,
     found: &mut Vec<Diagnostic>,
 ) -> (Known, Renamed) {
     let (from, to) = (job.from.dialect, job.to.dialect);
     let (source, caps) = (job.from.caps(), job.to.caps());
-    let mut entry = stands.clone();
+    let mut entry = start.clone();
     entry.modes = entry.modes.or(program.assumed);
     let computes = source.flow.computes.unwrap_or_default();
     let lengths = to.numbers(Quantity::Length);
@@ -159,7 +159,7 @@ pub fn legalise_parametric(
     let rows = || to.system.iter().filter(|row| row.counts(&job.to));
     let mut own = Parametric {
         caps: &caps,
-        target: there,
+        target,
         source: &computes,
         word_distance: source.modes.word_distance,
         others: from.id != to.id,
@@ -175,9 +175,9 @@ pub fn legalise_parametric(
     (own.known, own.renamed)
 }
 
-/// The modes that are in force where stretches of blocks begin in a program with subprograms, where no word counts in
-/// another one than its block's; `at` is what holds where the program begins.
-pub fn stands(program: &Program, at: &Tracker) -> HashMap<u32, Modes> {
+/// The modes active at the start of each basic block of a program with subprograms. Empty if a word has a distance mode
+/// of its own. `at` holds the modes active at its first statement.
+pub fn entry_modes(program: &Program, at: &Tracker) -> HashMap<u32, Modes> {
     if program.procedures.len() < 2 {
         return HashMap::new();
     }

@@ -58,16 +58,16 @@ struct Piece {
     executed: bool,
     /// Set where they are nothing but straight moves.
     lines: Option<Lines>,
-    /// What was taken for granted of the source, in the target machine's numbers.
-    there: Modes,
+    /// The modes that were assumed of the source, in the numbers of the target machine.
+    target_modes: Modes,
     found: Vec<Diagnostic>,
 }
 
 impl Piece {
     fn new(stmts: Vec<Stmt>, over: bool) -> Piece {
-        let (lines, there) = (None, Modes::default());
+        let (lines, target_modes) = (None, Modes::default());
         let (touch, executed) = (Touch::Changes, false);
-        Piece { stmts, over, original: None, touch, executed, lines, there, found: Vec::new() }
+        Piece { stmts, over, original: None, touch, executed, lines, target_modes, found: Vec::new() }
     }
 }
 
@@ -80,8 +80,8 @@ struct Kept {
     computed: Option<Computed>,
     /// Which of the source's variables became which.
     renamed: Renamed,
-    /// What was taken for granted of the source, in the target machine's numbers.
-    there: Modes,
+    /// The modes that were assumed of the source, in the numbers of the target machine.
+    target_modes: Modes,
     /// What the steps from the passes that were asked for on have found.
     found: Vec<Diagnostic>,
     /// What the writer is to know of one that computes, once, before any of it is written: the places of words with a
@@ -91,9 +91,9 @@ struct Kept {
 
 impl Kept {
     fn new(source: Program) -> Kept {
-        let (renamed, there, found) = (Renamed::default(), Modes::default(), Vec::new());
+        let (renamed, target_modes, found) = (Renamed::default(), Modes::default(), Vec::new());
         let program = source.clone();
-        Kept { source, program, computed: None, renamed, there, found, for_writer: None }
+        Kept { source, program, computed: None, renamed, target_modes, found, for_writer: None }
     }
 }
 
@@ -103,8 +103,8 @@ struct Computed {
     facts: Known,
     /// Places of words that count in another distance mode than their block's.
     own_distance: BTreeSet<u32>,
-    /// What is in force where stretches of blocks begin.
-    stands: HashMap<u32, Modes>,
+    /// The modes active at the start of each basic block.
+    entry_modes: HashMap<u32, Modes>,
 }
 
 /// A step has refused the program; why is told already.
@@ -293,14 +293,17 @@ impl Translation<'_> {
                 let unfolded = self.folder.as_mut().map(|folder| folder.piece(stmts, &assumed, *over, found));
                 self.state_given(stmts);
                 let renumbers = self.renumbering.touches(stmts);
-                piece.there = self.taken_there(stmts, &assumed, found);
+                piece.target_modes = self.modes_in_target(stmts, &assumed, found);
                 let lines = Lines::from_statements(stmts);
                 piece.lines = lines;
                 let plain = lines.is_some_and(|lines| self.side_effects.passes(lines));
                 let switches = !plain && self.side_effects.touches(stmts);
                 let changes = unfolded.is_some() || renumbers || switches;
-                let touch =
-                    if changes { Touch::Changes } else { self.legaliser.touches(stmts, lines, &piece.there) };
+                let touch = if changes {
+                    Touch::Changes
+                } else {
+                    self.legaliser.touches(stmts, lines, &piece.target_modes)
+                };
                 piece.touch = touch;
                 piece.original = (touch == Touch::Changes).then(|| unfolded.unwrap_or_else(|| stmts.clone()));
             }
@@ -363,17 +366,17 @@ impl Translation<'_> {
         let caps = self.job.to.caps();
         // What is folded or rewritten by name must be known when it is.
         let plainly = self.job.passes.is_empty() && self.folder.is_none();
-        let there = caps.flow.computes.as_deref().filter(|_| plainly);
+        let computes = caps.flow.computes.as_deref().filter(|_| plainly);
         let mut found = Vec::new();
         let mut computed = Computed::default();
-        if let Some(there) = there {
+        if let Some(computes) = computes {
             leave_out_values(program, &caps, &mut found);
             ran_whole("leave-out-values", program);
-            let stands = self.legaliser.stands();
+            let entry = self.legaliser.entry();
             (computed.facts, kept.renamed) =
-                parametric::legalise_parametric(self.job, program, there, stands, &mut found);
+                parametric::legalise_parametric(self.job, program, computes, entry, &mut found);
             if word_distance::others(program, &computed.facts).is_empty() {
-                computed.stands = computed.facts.modes();
+                computed.entry_modes = computed.facts.modes();
             }
             if self.job.from.caps().modes.word_distance {
                 computed.own_distance = word_distance::places(program, &computed.facts);
@@ -384,7 +387,7 @@ impl Translation<'_> {
                 }
             }
         }
-        found.extend(computing(program, there).filter(|_| !refuses(&found)));
+        found.extend(computing(program, computes).filter(|_| !refuses(&found)));
         kept.computed = Some(computed);
         if refuses(&found) {
             self.take(found, Told::Reader);
@@ -427,10 +430,10 @@ impl Translation<'_> {
                 }
             }
             Part::Kept(kept) => {
-                let Kept { program, there, found, .. } = &mut **kept;
+                let Kept { program, target_modes, found, .. } = &mut **kept;
                 let main = program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
                 let assumed = self.batch.assumed;
-                *there = self.taken_there(main, &assumed, found);
+                *target_modes = self.modes_in_target(main, &assumed, found);
                 self.renumbering.run(program, found);
                 ran_whole("machine-numbers", program);
             }
@@ -441,8 +444,8 @@ impl Translation<'_> {
     /// for granted holds for it as well.
     fn legalise(&mut self, part: &mut Part) -> Result<(), Refused> {
         match part {
-            Part::Piece(Piece { stmts, original, touch, executed, lines, there, found, .. }) => {
-                self.legaliser.run_touching(stmts, there, (*lines, *touch), found);
+            Part::Piece(Piece { stmts, original, touch, executed, lines, target_modes, found, .. }) => {
+                self.legaliser.run_touching(stmts, target_modes, (*lines, *touch), found);
                 // Lines and arcs that all passes have left as they were are compared as they are written.
                 if original.as_ref() == Some(stmts) {
                     if stmts.iter().all(goes_straight) {
@@ -463,14 +466,14 @@ impl Translation<'_> {
             Part::Kept(kept) => {
                 let Kept { program, found, computed, source, for_writer, .. } = &mut **kept;
                 match computed.take() {
-                    Some(Computed { facts, own_distance, stands }) => {
+                    Some(Computed { facts, own_distance, entry_modes }) => {
                         self.legaliser.run_computing(program, &facts, found);
-                        *for_writer = Some((own_distance, stands));
+                        *for_writer = Some((own_distance, entry_modes));
                         self.unless_refused(found)?;
                     }
                     None => {
-                        let stands = parametric::stands(program, self.legaliser.stands());
-                        self.writer.know_modes(program, stands);
+                        let entry_modes = parametric::entry_modes(program, self.legaliser.entry());
+                        self.writer.know_modes(program, entry_modes);
                         self.legaliser.run_program(program, found);
                     }
                 }
@@ -486,19 +489,19 @@ impl Translation<'_> {
     /// Writes the part in the target's words.
     fn write(&mut self, part: &mut Part) {
         let found = match part {
-            Part::Piece(Piece { stmts, there, found, .. }) => {
-                self.write_main(stmts, there, found);
+            Part::Piece(Piece { stmts, target_modes, found, .. }) => {
+                self.write_main(stmts, target_modes, found);
                 found
             }
             Part::Kept(kept) => {
-                let Kept { program, there, found, for_writer, .. } = &mut **kept;
-                if let Some((own_distance, stands)) = for_writer.take() {
-                    self.writer.know(program, &own_distance, stands);
+                let Kept { program, target_modes, found, for_writer, .. } = &mut **kept;
+                if let Some((own_distance, entry_modes)) = for_writer.take() {
+                    self.writer.know(program, &own_distance, entry_modes);
                 }
                 let mut procedures = program.procedures.iter();
                 if let Some(main) = procedures.next() {
-                    self.write_main(&main.body, there, found);
-                    self.foot(there, found);
+                    self.write_main(&main.body, target_modes, found);
+                    self.foot(target_modes, found);
                 }
                 for procedure in procedures {
                     self.writer.procedure(procedure, &mut self.text, found);

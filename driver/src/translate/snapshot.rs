@@ -19,7 +19,7 @@ pub(super) struct Snapshot {
     numbers: BTreeSet<u32>,
     counted: Vec<Counted>,
     /// Of the diagnostics and of what rests on them, how many there were.
-    told: [usize; 2],
+    reported: [usize; 2],
     errors: usize,
     refused: bool,
     computes: bool,
@@ -34,7 +34,7 @@ impl Snapshot {
             given: now.given,
             numbers: now.numbers.clone(),
             counted: now.counted.clone(),
-            told: [now.diagnostics.len(), now.rests.len()],
+            reported: [now.diagnostics.len(), now.rests.len()],
             errors: now.errors,
             refused: now.refused,
             computes: now.computes,
@@ -43,7 +43,7 @@ impl Snapshot {
 
     /// How many diagnostics there were.
     pub(super) fn diagnostics(&self) -> usize {
-        self.told[0]
+        self.reported[0]
     }
 
     pub(super) fn restore(self, now: &mut Translation) {
@@ -53,8 +53,8 @@ impl Snapshot {
         now.given = self.given;
         now.numbers = self.numbers;
         now.counted = self.counted;
-        now.diagnostics.truncate(self.told[0]);
-        now.rests.truncate(self.told[1]);
+        now.diagnostics.truncate(self.reported[0]);
+        now.rests.truncate(self.reported[1]);
         (now.errors, now.refused, now.computes) = (self.errors, self.refused, self.computes);
     }
 }

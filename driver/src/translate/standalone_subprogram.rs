@@ -77,8 +77,8 @@ impl Translation<'_> {
 
     /// How the target's subprograms have their parameters, where they have any.
     fn handed(&self) -> Option<Handed> {
-        let there = self.job.to.caps().flow.computes.filter(|_| self.job.to.dialect.program.macros);
-        there.map(|there| there.handed)
+        let target = self.job.to.caps().flow.computes.filter(|_| self.job.to.dialect.program.macros);
+        target.map(|target| target.handed)
     }
 
     /// The name by which others call it: its own, its number, or that of its file.

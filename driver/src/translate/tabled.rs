@@ -60,21 +60,21 @@ impl Translation<'_> {
 
     fn send_table(&mut self, table: &mut LineTable, mut stand: Vec<Stmt>, lines: Lines) -> io::Result<()> {
         let (assumed, mut found) = (self.batch.assumed, Vec::new());
-        let there = self.taken_there(&stand, &assumed, &mut found);
+        let target_modes = self.modes_in_target(&stand, &assumed, &mut found);
         let (before, told) = (stand.clone(), found.len());
-        self.legaliser.run_touching(&mut stand, &there, (Some(lines), Touch::Passes), &mut found);
+        self.legaliser.run_touching(&mut stand, &target_modes, (Some(lines), Touch::Passes), &mut found);
         if stand != before || found.len() > told {
             self.discarded = true;
             return Ok(());
         }
-        let taken = there.without(&self.given);
+        let taken = target_modes.without(&self.given);
         if self.writer.table(table, &taken, &mut self.text, &mut found) {
             self.take(found, Told::Writer);
             return self.release_text(&assumed, Said::Table(table));
         }
         let mut stmts = Vec::new();
         table.unpack(&mut stmts);
-        self.write_main(&stmts, &there, &mut found);
+        self.write_main(&stmts, &target_modes, &mut found);
         self.take(found, Told::Writer);
         self.release_text(&assumed, Said::Lines(&mut stmts))
     }

@@ -86,9 +86,9 @@ impl Tools {
 /// The source cannot be read.
 pub fn number<F: Read + Seek>(job: &mut Job, source: &mut F) -> io::Result<()> {
     let (from, to) = (job.from.dialect, job.to.dialect);
-    let there = job.to.caps().tools;
-    let by_name = from.address.iter().any(|row| row.role == Role::Tool && row.named) && !there.names;
-    let by_edge = from.letter_for(Role::ToolEdge).is_some() && there.lengths_of == LengthsOf::Entries;
+    let tools = job.to.caps().tools;
+    let by_name = from.address.iter().any(|row| row.role == Role::Tool && row.named) && !tools.names;
+    let by_edge = from.letter_for(Role::ToolEdge).is_some() && tools.lengths_of == LengthsOf::Entries;
     if !by_name && !by_edge || to.can.flat || to.can.everything {
         return Ok(());
     }

@@ -199,8 +199,8 @@ impl<'j> Translation<'j> {
     /// Assumed facts that the output does not state itself, in the target machine's numbers, and what
     /// was taken for granted of the target.
     pub(super) fn inherited(&self, assumed: &Modes) -> Modes {
-        let there = self.renumbering.modes(assumed);
-        let facts = there.without(&self.writer.stated()).without(&self.given);
+        let target_modes = self.renumbering.modes(assumed);
+        let facts = target_modes.without(&self.writer.stated()).without(&self.given);
         let taken = self.legaliser.taken();
         Modes {
             work_offset: taken.work_offset.or(facts.work_offset),

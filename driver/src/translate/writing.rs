@@ -60,9 +60,9 @@ impl Translation<'_> {
         }
     }
 
-    /// What was taken for granted of the source, in the target machine's numbers. Those that it has not
-    /// are refused at the first of the statements that rely on them.
-    pub(super) fn taken_there(
+    /// The modes that were assumed of the source, in the numbers of the target machine. A number that it lacks is refused
+    /// at the first statement.
+    pub(super) fn modes_in_target(
         &mut self,
         stmts: &[Stmt],
         assumed: &Modes,
@@ -107,11 +107,11 @@ impl Translation<'_> {
     pub(super) fn end_stream(&mut self) -> io::Result<()> {
         let mut stmts = Vec::new();
         let assumed = self.batch.assumed;
-        let there = self.renumbering.modes(&assumed);
+        let target_modes = self.renumbering.modes(&assumed);
         let mut found = Vec::new();
         self.legaliser.finish(&mut stmts, &mut found);
-        self.write_main(&stmts, &there, &mut found);
-        self.foot(&there, &mut found);
+        self.write_main(&stmts, &target_modes, &mut found);
+        self.foot(&target_modes, &mut found);
         self.writer.finish(&mut self.text, &mut found);
         self.take(found, Told::Writer);
         self.release_text(&assumed, Said::Otherwise)?;
@@ -195,7 +195,7 @@ impl Translation<'_> {
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         let mut trace = self.trace.take();
         self.check(|v| {
-            v.whole_telling((source, renamed), &text, base, &inherited, &mut |pairs| {
+            v.verify_rest_reporting((source, renamed), &text, base, &inherited, &mut |pairs| {
                 if let Some(trace) = &mut trace {
                     trace.pairs(pairs);
                 }
@@ -229,6 +229,6 @@ impl Translation<'_> {
         let (Some(trace), Some(verifier)) = (&mut self.trace, &mut self.verifier) else { return Ok(()) };
         let (pairs, over) = verifier.take_pairs();
         trace.pairs(&pairs);
-        trace.over(over.map_or(trace.bytes(), u64::from))
+        trace.close_rows_before(over.map_or(trace.bytes(), u64::from))
     }
 }

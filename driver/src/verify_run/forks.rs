@@ -339,7 +339,7 @@ mod tests {
         let source = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
         let mut verifier = Verifier::new(&job);
         verifier.reach = reach;
-        verifier.whole(&source, OUTPUT.as_bytes(), 0, &batch.assumed).expect("the same program");
+        verifier.verify_rest(&source, OUTPUT.as_bytes(), 0, &batch.assumed).expect("the same program");
         let notes = verifier.take_notes(&[]);
         let spindle = Behaviour::SpindleAtStop;
         let has = |fault: fn(&Fault) -> Option<Behaviour>| {

@@ -24,7 +24,7 @@ use ncc_ir::program::rows::Rows;
 use ncc_ir::program::{Op, Stmt};
 
 use super::facts::{come_to, stopped};
-use super::verifier::{HolesAhead, HolesMade, Run, Stop, Told, Verifier};
+use super::verifier::{HoleForm, HolesAhead, HolesMade, Run, Stop, Verifier};
 
 /// Holes at the end of a piece of which fewer are executed with it.
 const MANY: usize = 32;
@@ -74,7 +74,7 @@ impl Verifier {
             let strokes = behind.pass_strokes(stmts, valued.as_ref()).map_err(Stop::Source)?;
             let Some(strokes) = strokes else { return Ok(false) };
             let events = strokes.len() as u64;
-            runs.push(HolesMade { behind, told: Told::Strokes(strokes), events });
+            runs.push(HolesMade { behind, form: HoleForm::Strokes(strokes), events });
         }
         self.hold(stmts, runs, false);
         Ok(true)
@@ -98,7 +98,7 @@ impl Verifier {
         for run in &self.runs {
             let (mut behind, mut places) = (run.source.clone(), Vec::with_capacity(stmts.len()));
             let events = behind.pass_holes(stmts, valued.as_ref(), &mut places).map_err(Stop::Source)?;
-            runs.push(HolesMade { behind, told: Told::Places(places), events });
+            runs.push(HolesMade { behind, form: HoleForm::Places(places), events });
         }
         self.hold(stmts, runs, at_end);
         Ok(())
@@ -114,7 +114,7 @@ impl Verifier {
     /// Takes the holes out of the text just read with which it ends, where those of the source are at the end of a piece.
     pub(super) fn take_holes_read(&mut self) -> Option<Vec<Stmt>> {
         let ahead = self.holes_ahead.as_ref().filter(|ahead| ahead.at_end)?;
-        let Told::Places(places) = &ahead.runs.first()?.told else { return None };
+        let HoleForm::Places(places) = &ahead.runs.first()?.form else { return None };
         let holes = places.len();
         let read = &mut self.batch.stmts;
         let spoken = read.iter().enumerate().rev().filter(|(_, stmt)| !is_silent(stmt));
@@ -126,7 +126,7 @@ impl Verifier {
     /// are read as a table.
     pub(super) fn reads_strokes(&self) -> bool {
         let first = self.holes_ahead.as_ref().and_then(|ahead| ahead.runs.first());
-        matches!(first, Some(HolesMade { told: Told::Strokes(_), .. }))
+        matches!(first, Some(HolesMade { form: HoleForm::Strokes(_), .. }))
     }
 
     /// Lets holes pass that the text just read says as the source does; `false` where it does not. All that was read is
@@ -150,14 +150,14 @@ impl Verifier {
         let same = self.runs.iter_mut().zip(&ahead.runs).all(|(run, made)| {
             level
                 && (open == 0 || open & come_to(&run.target, read) == 0)
-                && match (&made.told, &lines, &holes) {
-                    (Told::Places(places), _, Some(holes)) => {
+                && match (&made.form, &lines, &holes) {
+                    (HoleForm::Places(places), _, Some(holes)) => {
                         run.source.makes_holes_of(&run.target) && run.target.has_holes_at(holes, places)
                     }
-                    (Told::Strokes(strokes), Some(lines), _) => {
+                    (HoleForm::Strokes(strokes), Some(lines), _) => {
                         run.source.makes_strokes_of(&run.target) && run.target.goes_along(lines, strokes)
                     }
-                    (Told::Places(_), _, None) | (Told::Strokes(_), None, _) => false,
+                    (HoleForm::Places(_), _, None) | (HoleForm::Strokes(_), None, _) => false,
                 }
         });
         if !same {

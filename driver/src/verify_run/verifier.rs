@@ -113,12 +113,12 @@ pub(super) struct HolesAhead {
 pub(super) struct HolesMade {
     /// The source's control behind them; its run has it as it is before them.
     pub(super) behind: Exec,
-    pub(super) told: Told,
+    pub(super) form: HoleForm,
     pub(super) events: u64,
 }
 
 /// What is known of holes that were executed for their effect alone.
-pub(super) enum Told {
+pub(super) enum HoleForm {
     /// Where they are: the target is to make the same holes.
     Places(Vec<[Nanos; AXES]>),
     /// Their straight moves: the target is to go along these.

@@ -113,13 +113,19 @@ fn target_arc(fault: &Fault) -> Option<Fault> {
 
 impl Verifier {
     /// Ends a program of which the rest was kept whole: runs both rests against each other.
-    pub fn whole(&mut self, source: &Program, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
-        self.whole_telling((source, &Renamed::default()), text, base, inherited, &mut |_| {})
+    pub fn verify_rest(
+        &mut self,
+        source: &Program,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+    ) -> Result<(), Stop> {
+        self.verify_rest_reporting((source, &Renamed::default()), text, base, inherited, &mut |_| {})
     }
 
-    /// As [`Verifier::whole`]; pairs of events go to `pairs` as they are found, if they are kept.
+    /// As [`Verifier::verify_rest`]; pairs of events go to `pairs` as they are found, if they are kept.
     /// Variables of the source may have other names in the text.
-    pub fn whole_telling(
+    pub fn verify_rest_reporting(
         &mut self,
         (source, renamed): (&Program, &Renamed),
         text: &[u8],
@@ -386,22 +392,20 @@ impl Verifier {
                 _ => false,
             }
         };
-        let there = self.there(given);
+        let numerics = self.numerics(given);
         let read =
-            |taken: &&[_]| other_reading(source, taken, there, u32::MAX).is_some_and(|other| same(&other));
-        let Some(taken) = READINGS.into_iter().find(read) else {
-            return ended;
-        };
+            |taken: &&[_]| other_reading(source, taken, numerics, u32::MAX).is_some_and(|other| same(&other));
+        let Some(taken) = READINGS.into_iter().find(read) else { return ended };
         // The first place with which the output is the source in that reading.
-        let at = assumed_places(source, taken, there)
+        let at = assumed_places(source, taken, numerics)
             .into_iter()
             .take(MOST_PLACES)
-            .find(|at| other_reading(source, taken, there, at.start).is_some_and(|other| same(&other)));
+            .find(|at| other_reading(source, taken, numerics, at.start).is_some_and(|other| same(&other)));
         let what = taken[0].violation();
         Err(Ended::NotSo(Diagnostic::new(Fault::computes(what), at.unwrap_or(self.last))))
     }
 
-    fn there(&self, given: &Given) -> TargetNumerics<'_> {
+    fn numerics(&self, given: &Given) -> TargetNumerics<'_> {
         TargetNumerics {
             functions: &self.functions,
             fineness: self.fineness,

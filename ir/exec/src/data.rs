@@ -13,6 +13,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{Coord, Data, DataMode, Detour, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::{CycleUnexecuted, FrameUnexecuted, MoveUnexecuted};
 
 impl Exec {
@@ -205,7 +206,9 @@ impl Exec {
                     };
                     zero[axis] = match sum {
                         Some(sum) if sum.unsigned_abs() < 1 << 60 => sum,
-                        Some(_) | None => return self.fault(Fault::OutOfRange { word: "".into() }, span),
+                        Some(_) | None => {
+                            return self.fault(Fault::OutOfRange { word: Ranged::Unnamed }, span);
+                        }
                     };
                 }
                 let turned = turn.as_ref().map_or(Ok(turned), |turn| self.value(turn, span))?;

@@ -68,6 +68,7 @@ use ncc_ir::geometry::polar::Pole;
 use ncc_ir::program::kinds::variables;
 use ncc_ir::program::{Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::{FlowUnexecuted, Unexecuted};
 
 const Z: usize = Axis::Z as usize;
@@ -528,13 +529,13 @@ impl Exec {
             Op::UseToolLengthOffset(entry) => {
                 let entry = u32::try_from(self.whole_number(entry, span)?);
                 let Ok(entry) = entry else {
-                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                    return self.fault(Fault::OutOfRange { word: Ranged::Unnamed }, span);
                 };
                 self.call_up_zeroed(Length::Entry(entry), span)?;
             }
             Op::UseToolEdge { edge, .. } => {
                 let Ok(edge @ 0..=9) = u32::try_from(self.whole_number(edge, span)?) else {
-                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                    return self.fault(Fault::OutOfRange { word: Ranged::Unnamed }, span);
                 };
                 self.call_up_zeroed(self.edge(edge), span)?;
             }

@@ -205,7 +205,7 @@ impl Exec {
         let nanos = length.as_ref().map_or(Ok(0), |length| self.value(length, span))?;
         match i32::try_from((nanos + 50_000) / 100_000) {
             Ok(tenths) if nanos >= 0 => Ok(tenths),
-            Ok(_) | Err(_) => self.fault(Fault::OutOfRange { word: "".into() }, span),
+            Ok(_) | Err(_) => self.fault(Fault::OutOfRange { word: Ranged::Unnamed }, span),
         }
     }
 

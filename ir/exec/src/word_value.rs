@@ -8,8 +8,9 @@
 
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
-use ncc_ir::expr::num::{Nanos, Num, Unit};
+use ncc_ir::expr::num::{Nanos, Num, POW10, Unit};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::ValueUnexecuted;
 
 use crate::{Exec, MOST_BITS};
@@ -22,7 +23,10 @@ impl Exec {
             return Ok(value);
         }
         match value {
-            Expr::Num(_) => self.fault(Fault::OutOfRange { word: "value".into() }, span),
+            Expr::Num(n) => {
+                let about = n.mantissa / POW10[usize::from(n.scale)];
+                self.fault(Fault::OutOfRange { word: Ranged::TooLarge { about } }, span)
+            }
             Expr::Node(_) => self.fault(Fault::not_executed(ValueUnexecuted::Expression), span),
         }
     }
@@ -47,7 +51,7 @@ impl Exec {
     pub(crate) fn whole_number(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
         match value.literal().and_then(|n| n.whole_number()) {
             Some(n) => Ok(n),
-            None => self.fault(Fault::OutOfRange { word: "".into() }, span),
+            None => self.fault(Fault::OutOfRange { word: Ranged::Unnamed }, span),
         }
     }
 }

@@ -1,117 +1,119 @@
-//! What a program can ask of the control itself: values by their meaning, whatever a control calls them.
+//! System variables: values of the control that a program can read, by their meaning.
 //!
-//! Not here: what they are worth (`exec::ask`), and what each control calls them (its front-end's, by its
-//! dictionary).
+//! ```text
+//! #5001 (Fanuc), $P_EP[X] (Sinumerik)    System::EndPoint(Axis::X)
+//! ```
+//!
+//! Not here: their values (`exec::ask`), and their names on each control (the dictionaries).
 
 use std::fmt::{self, Display, Formatter};
 
 use crate::canon::{Axis, Distance, FeedMode, Motion, Plane, ReturnLevel, Turn, Units};
 use crate::program::tool_value::ToolValue;
 
-/// A value of the control's own.
+/// A system variable.
 ///
-/// Lengths count in the unit in force where none is stated, angles in degrees; whether something holds is 1, else 0.
+/// Lengths are in the active unit unless a unit is stated, angles in degrees. A condition is 1 or 0.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum System {
-    /// Where the tool stands along an axis, in the program's coordinates: the end point of the last move
+    /// End point of the last move along an axis, in program coordinates
     /// (Sinumerik `$P_EP`, Fanuc `#5001`, LinuxCNC `#5420`).
     EndPoint(Axis),
-    /// Where the last probing move ended along an axis, in the coordinates that the program had then (Fanuc `#5061`).
+    /// Touch point of the last probing move along an axis, in the program coordinates of that move (Fanuc `#5061`).
     TouchPoint(Axis),
-    /// The same with the offsets of the tool that were in force counted in: where the spindle's end was.
+    /// The same for the spindle nose: with the tool offsets that were active.
     TouchWithOffsets(Axis),
-    /// Where the spindle's end stands along an axis in the coordinates of the work offset, the offsets of the tool counted
-    /// in (Fanuc `#5041`).
+    /// Position of the spindle nose along an axis, in the coordinates of the work offset, with the tool offsets (Fanuc
+    /// `#5041`).
     SpindlePoint(Axis),
-    /// Where the tool stands in machine coordinates, tool length included (LinuxCNC `#<_abs_x>`, Fanuc `#5021`).
+    /// Position in machine coordinates along an axis, with the tool length (LinuxCNC `#<_abs_x>`, Fanuc `#5021`).
     MachinePoint(Axis),
     /// A work offset along an axis; 1 is the first (`#5221`, `$P_UIFR[1,X,TR]`).
     WorkOffset {
-        /// Its number.
+        /// 1 is G54.
         number: u16,
         /// Along this one.
         axis: Axis,
         /// The unit that it counts in, whatever is in force.
         unit: Option<Units>,
     },
-    /// By how much all work offsets are shifted along an axis, beside the one in force (Fanuc `#5201`).
+    /// External work offset along an axis: it shifts all work offsets (Fanuc `#5201`).
     ExternalOffset(Axis),
-    /// By how much a work offset is turned about Z.
+    /// Rotation of a work offset about Z.
     WorkTurn(u16),
-    /// The number of the work offset in force.
+    /// Number of the active work offset; 1 is G54.
     WorkOffsetNumber,
-    /// The number kept of the shift of the origin along an axis, in force or not.
+    /// Stored G92 shift along an axis, active or not.
     OriginShift {
         /// Along this one.
         axis: Axis,
         /// The unit that it counts in, whatever is in force.
         unit: Option<Units>,
     },
-    /// Whether the shift of the origin is in force.
+    /// Whether the G92 shift is active.
     OriginShifted,
-    /// The length of a tool in force.
+    /// The active tool length.
     ToolLength,
-    /// An offset of the tool in the spindle, as the table of tools has it now, whether in force or not (LinuxCNC
-    /// `#5401`).
+    /// Offset of the tool in the spindle, in the tool table now, active or not (LinuxCNC `#5401`).
     TableOffset {
         /// Along this one.
         axis: Axis,
         /// The unit that it counts in, whatever is in force.
         unit: Option<Units>,
     },
-    /// The diameter of the tool in the spindle, as the table of tools has it now, wear counted in (LinuxCNC `#5410`).
+    /// Diameter of the tool in the spindle, in the tool table now, with wear (LinuxCNC `#5410`).
     TableDiameter {
         /// The unit that it counts in, whatever is in force.
         unit: Option<Units>,
     },
-    /// A value of an entry of the table of tools, as the table has it now, whether in force or not (Fanuc `#2201`).
+    /// Value of an entry of the tool table now, active or not (Fanuc `#2201`).
     ToolTable {
         /// Which value.
         value: ToolValue,
         /// The entry; 1 is the first.
         entry: u16,
     },
-    /// The number of the entry of the length table in force (Fanuc `#4111`).
+    /// The active H number (Fanuc `#4111`).
     LengthEntry,
-    /// The number of the work offset in force, where it is one of the first six (Fanuc `#4014`, less 53).
+    /// Number of the active work offset, 1 to 6 (Fanuc `#4014` minus 53).
     FirstWorkOffset,
-    /// What the machine keeps count of by itself.
+    /// A counter of the machine, and its index.
     Kept(Kept, u16),
     /// Number of the tool in the spindle.
     Tool,
     /// Number of the tool selected last.
     SelectedTool,
-    /// The feed said last.
+    /// The last programmed feed.
     Feed,
-    /// The spindle speed said last.
+    /// The last programmed spindle speed.
     Speed,
-    /// Whether units are these.
+    /// Whether this unit is active.
     Units(Units),
-    /// Whether words are measured so.
+    /// Whether G90 or G91 is active.
     Distance(Distance),
-    /// Whether the plane is this one.
+    /// Whether this plane is active.
     Plane(Plane),
-    /// Whether a feed counts so.
+    /// Whether this feed mode is active.
     FeedMode(FeedMode),
-    /// Whether cycles leave the tool there.
+    /// Whether this return level of cycles (G98, G99) is active.
     ReturnLevel(ReturnLevel),
-    /// Whether axis words alone do this straight move; what is in force is no arc, and no cycle.
+    /// Whether this motion mode is active: G00 or G01, and no arc or cycle.
     Motion(Motion),
-    /// Whether the spindle turns so.
+    /// Whether the spindle turns in this direction.
     Turning(Turn),
-    /// Whether the speed is a surface speed.
+    /// Whether G96 is active.
     SurfaceSpeed,
     /// Whether flood coolant is on.
     Flood,
     /// Whether mist coolant is on.
     Mist,
-    /// Something without a meaning here, by the control's own name. Never executed.
+    /// Any other system variable, by its name on the control. Never executed.
     Other(Box<str>),
 }
 
 impl System {
-    /// Whether the machine's set-up has the answer, or what ran before: two machines may answer differently where they
-    /// have executed the same.
+    /// Whether the value depends on the machine's set-up or on earlier programs: two machines that execute the same
+    /// program may differ.
     pub fn is_of_the_machine(&self) -> bool {
         match self {
             System::MachinePoint(_)
@@ -150,7 +152,7 @@ impl System {
         }
     }
 
-    /// The value of a name that [`Display`] gives; any other is [`System::Other`].
+    /// Reverses [`Display`]; any other name is [`System::Other`].
     pub fn named(name: &str) -> System {
         System::meaning(name).unwrap_or_else(|| System::Other(name.into()))
     }
@@ -200,7 +202,7 @@ impl System {
         Some(found)
     }
 
-    /// The same value along another axis; `None` of one that is along no axis.
+    /// The same value along another axis; `None` if it belongs to no axis.
     pub fn along(mut self, along: Axis) -> Option<System> {
         match &mut self {
             System::EndPoint(axis)
@@ -217,7 +219,7 @@ impl System {
         Some(self)
     }
 
-    /// The same value of another entry of its table, from 1 on; `None` of one that is in no table.
+    /// The same value of another entry of its table, from 1; `None` if it is in no table.
     pub fn numbered(mut self, entry: u16) -> Option<System> {
         match &mut self {
             System::WorkOffset { number, .. }
@@ -229,7 +231,7 @@ impl System {
         Some(self)
     }
 
-    /// Whether it depends on where the tool stands.
+    /// Whether it depends on the position.
     pub fn is_place(&self) -> bool {
         matches!(
             self,
@@ -242,22 +244,22 @@ impl System {
     }
 }
 
-/// What a machine keeps count of by itself, and no program says.
+/// Counters of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kept {
-    /// Parts made since somebody has set the count to nothing (Fanuc and Haas `#3901`).
+    /// Parts made since the operator has reset the count (Fanuc and Haas `#3901`).
     Parts,
-    /// Parts that shall be made (Fanuc `#3902`).
+    /// Parts required (Fanuc `#3902`).
     PartsWanted,
-    /// The second count of ends of programs (Haas `#3902`).
+    /// Second counter of program ends (Haas `#3902`).
     PartsAgain,
-    /// Seconds that a tool was fed (Haas `#5401` and on).
+    /// Feed time of a tool, seconds (Haas from `#5401`).
     FeedTime,
-    /// Seconds that a tool was in the spindle (Haas `#5501` and on).
+    /// Time of a tool in the spindle, seconds (Haas from `#5501`).
     ToolTime,
-    /// How often a tool may be used (Haas `#5601` and on).
+    /// Allowed uses of a tool (Haas from `#5601`).
     UsesAllowed,
-    /// How often a tool was used (Haas `#5701` and on).
+    /// Uses of a tool (Haas from `#5701`).
     Uses,
 }
 
@@ -290,11 +292,11 @@ const KEPT: [Kept; 7] = [
     Kept::Uses,
 ];
 
-/// Values of the table of tools that have a name here.
+/// Values of the tool table by their names in the text form.
 const TOOL_VALUES: [(ToolValue, &str); 2] =
     [(ToolValue::Length, "length"), (ToolValue::LengthWear, "length-wear")];
 
-/// Those that have nothing of their own to say.
+/// System variables without data, by their names in the text form.
 const PLAIN: [(&str, System); 28] = [
     ("offset.first", System::FirstWorkOffset),
     ("length.entry", System::LengthEntry),

@@ -53,8 +53,9 @@ pub(crate) fn cut(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     }
 }
 
-/// A move at feed, and no feed is in force.
+/// A feed move without an active feed: the check executes it with a made-up one.
 pub(crate) fn missing(checker: &mut Watched, at: Span) {
+    checker.feed.made_up = true;
     let known = std::mem::replace(&mut checker.seen.feed, Known::Lost);
     if known != Known::Lost {
         let at_entry = known == Known::Entry;

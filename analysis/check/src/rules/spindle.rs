@@ -1,13 +1,12 @@
-//! NC0805: moves at feed while the spindle stands, or turns at no stated speed. Told once until the
-//! program switches the spindle or says a speed. A spindle that the program holds at an angle is meant to stand,
-//! and so is one with a probe in it.
+//! NC0805: feed moves with the spindle stopped, or without a speed. Reported once until the program switches the
+//! spindle or sets a speed. The block that stopped the spindle is related. A spindle that the program holds at an angle
+//! is meant to stand, and so is one with a probe in it.
 
 use ncc_exec::Event;
 use ncc_ir::canon::{AXES, Spindle, same_point};
 use ncc_ir::expr::num::Nanos;
 
 use crate::finding::{Finding, What};
-use crate::met::SpindleMet;
 use crate::seen::Known;
 use crate::watched::Watched;
 
@@ -23,7 +22,7 @@ pub(crate) fn probed(checker: &mut Watched) {
 /// Another tool is in the spindle.
 pub(crate) fn changed(checker: &mut Watched) {
     if checker.spindle.probes {
-        checker.spindle = SpindleMet::default();
+        checker.spindle = checker.spindle.renewed();
     }
 }
 
@@ -42,5 +41,6 @@ pub(crate) fn cut(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     checker.spindle.stopped_at = stands.then_some(event.span);
     let what = if stands { What::SpindleStands } else { What::SpindleWithoutSpeed };
     let at_entry = known == Known::Entry;
-    checker.findings.add(Finding { at_entry, ..Finding::new(what, event.span) });
+    let stop = checker.spindle.stop.filter(|_| stands);
+    checker.findings.add(Finding { at_entry, ..Finding::new(what, event.span) }.with(stop));
 }

@@ -44,6 +44,10 @@ const PULLED: Nanos = 60;
 #[cold]
 pub(crate) fn cut(checker: &mut Watched, event: &Event) {
     let Kind::Synchronised { pitch, chuck } = event.kind else { return };
+    // NC0804 is reported, and the pitch follows from a made-up feed.
+    if checker.feed.made_up {
+        return;
+    }
     let pitch = pitch.abs();
     if pitch == 0 || usual().chain(RARE).any(|standard| fits(pitch, millimetres(standard), chuck)) {
         return;

@@ -25,7 +25,7 @@ pub(crate) trait Lists {
     ///
     /// # Errors
     /// Reading.
-    fn there(&mut self, side: usize, wanted: usize) -> io::Result<usize>;
+    fn read_ahead(&mut self, side: usize, wanted: usize) -> io::Result<usize>;
 
     /// Whether the first items at hand are the same.
     fn first_are_same(&self) -> bool;
@@ -47,22 +47,22 @@ pub(crate) fn edits(lists: &mut impl Lists) -> io::Result<Vec<DiffOp>> {
     let (mut i, mut j) = (0, 0);
     loop {
         let mut same = 0;
-        let mut there = [lists.there(0, 1)?, lists.there(1, 1)?];
-        while !there.contains(&0) && lists.first_are_same() {
+        let mut ahead = [lists.read_ahead(0, 1)?, lists.read_ahead(1, 1)?];
+        while !ahead.contains(&0) && lists.first_are_same() {
             lists.pass([1, 1], true);
             same += 1;
-            there = [lists.there(0, 1)?, lists.there(1, 1)?];
+            ahead = [lists.read_ahead(0, 1)?, lists.read_ahead(1, 1)?];
         }
         found.push(DiffOp::Equal { old_index: i, new_index: j, len: same });
         (i, j) = (i + same, j + same);
-        if there == [0, 0] {
+        if ahead == [0, 0] {
             return Ok(found.ops);
         }
         let mut window = WINDOW;
         loop {
-            let there = [lists.there(0, window + 1)?, lists.there(1, window + 1)?];
-            let whole = there.iter().all(|there| *there <= window);
-            let [part_a, part_b] = lists.ids(there.map(|there| there.min(window)));
+            let ahead = [lists.read_ahead(0, window + 1)?, lists.read_ahead(1, window + 1)?];
+            let whole = ahead.iter().all(|ahead| *ahead <= window);
+            let [part_a, part_b] = lists.ids(ahead.map(|ahead| ahead.min(window)));
             let ops = capture_diff_slices_deadline(Algorithm::Myers, &part_a, &part_b, Some(until));
             let together = ops
                 .iter()
@@ -130,7 +130,7 @@ mod tests {
     struct Slices<'l>([&'l [u32]; 2]);
 
     impl Lists for Slices<'_> {
-        fn there(&mut self, side: usize, wanted: usize) -> io::Result<usize> {
+        fn read_ahead(&mut self, side: usize, wanted: usize) -> io::Result<usize> {
             Ok(self.0[side].len().min(wanted))
         }
 

@@ -107,7 +107,7 @@ fn both(
         side.source.shown = format!("{path} ({version})");
     }
     let most = if args.all { usize::MAX } else { SHOWN };
-    told(&mut sides, most, err).unwrap_or_else(|e| format!("not compared: {e}\n"))
+    differences(&mut sides, most, err).unwrap_or_else(|e| format!("not compared: {e}\n"))
 }
 
 /// The difference of the texts, where a version is no milling program.
@@ -132,7 +132,7 @@ fn of_texts(known: &DialectRegistry, versions: [&str; 2], path: &str) -> Option<
     Some(out)
 }
 
-fn told(sides: &mut [Side; 2], most: usize, err: &mut dyn WriteColor) -> std::io::Result<String> {
+fn differences(sides: &mut [Side; 2], most: usize, err: &mut dyn WriteColor) -> std::io::Result<String> {
     let found = motion(sides, None)?;
     for (side, course) in sides.iter_mut().zip(&found.courses) {
         // What cannot be told changes nothing about what was found.

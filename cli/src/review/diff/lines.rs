@@ -218,7 +218,7 @@ pub(crate) struct Both<'l, 'f> {
 }
 
 impl Lists for Both<'_, '_> {
-    fn there(&mut self, side: usize, wanted: usize) -> io::Result<usize> {
+    fn read_ahead(&mut self, side: usize, wanted: usize) -> io::Result<usize> {
         let lines = &mut self.texts[side];
         while lines.ahead.len() < wanted && lines.read_line()? {}
         Ok(lines.ahead.len())
@@ -288,8 +288,8 @@ mod tests {
         let [a, b] = files.each_mut().map(|file| Lines::new(file, None).expect("memory"));
         let mut texts = [a, b];
         let mut both = Both { texts: &mut texts, around: 2 };
-        assert_eq!(both.there(0, 9).ok(), Some(8));
-        assert_eq!(both.there(1, 9).ok(), Some(8));
+        assert_eq!(both.read_ahead(0, 9).ok(), Some(8));
+        assert_eq!(both.read_ahead(1, 9).ok(), Some(8));
         both.pass([3, 3], true);
         both.pass([1, 0], false);
         both.pass([4, 4], true);

@@ -4,7 +4,7 @@
 //! Fault::WordWithoutNumber { letter: 'X' }    NC0106, letter = X, source = fanuc, target = siemens
 //! ```
 
-use ncc_dialects::Meaning;
+use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::behaviour::{Behaviour, Concern};
 use ncc_ir::canon::{PathMode, Turn, Units};
 use ncc_ir::compensated::kind::{CompensationRefusal, Kind};
@@ -140,7 +140,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
         Fault::NoValue { why } => no_value(*why, m),
         Fault::Computes { what } => m.reason(what).typed(typed(at.from)),
         Fault::VariableUnset { name } | Fault::VariableGiven { name } | Fault::ValueNotRead { name } => {
-            m.text("name", name.to_string())
+            m.text("name", name.to_string()).text("variable", variable(name, at.from))
         }
         Fault::NotCalled { name } => m.text("name", name.to_string()),
         Fault::EntryFactNeeded { fact: ModeName::Units } => {
@@ -367,10 +367,22 @@ pub(super) fn unreachable(why: Unreachable, m: Message) -> Message {
     })
 }
 
+/// A variable: by its number as the source writes it (`#500`, `R500`), or its name in backquotes.
+fn variable(name: &str, dialect: &Dialect) -> String {
+    let rules = &dialect.formula;
+    let bare = name.trim_start_matches('#');
+    match bare.starts_with(|sign: char| sign.is_ascii_digit()) {
+        true => format!("{}{}{bare}", rules.variable, rules.prefix),
+        false => format!("`{}`", plain(name)),
+    }
+}
+
 /// The entry of NC0209: a value is out of its range.
 fn out_of_range(what: &Ranged, m: Message) -> Message {
     match what {
         Ranged::Word(word) => m.text("word", shown(word)),
+        Ranged::Unnamed => m.form("unnamed"),
+        Ranged::TooLarge { about } => m.form("too-large").text("value", about.to_string()),
         Ranged::Turns => m.form("turns"),
         Ranged::Holes => m.form("holes"),
         Ranged::PeckDepth => m.form("peck-depth"),

@@ -166,6 +166,8 @@ fn forms_and_ranges() -> Vec<Fault> {
         Syntax { found: "5".into(), expected: Expected::RotaryAxis },
         Syntax { found: "5".into(), expected: Expected::StraightMove },
         OutOfRange { word: t().into() },
+        OutOfRange { word: Ranged::Unnamed },
+        OutOfRange { word: Ranged::TooLarge { about: 2_745_678 } },
         OutOfRange { word: Ranged::Turns },
         OutOfRange { word: Ranged::Holes },
         OutOfRange { word: Ranged::PeckDepth },

@@ -85,7 +85,7 @@ mod tests {
         let source =
             Program { assumed: batch.assumed, procedures: vec![batch.main(body)], ..Program::default() };
         let mut verifier = Verifier::new(&job);
-        verifier.whole(&source, program(written).as_bytes(), 0, &source.assumed)?;
+        verifier.verify_rest(&source, program(written).as_bytes(), 0, &source.assumed)?;
         Ok(verifier.covered().events)
     }
 

@@ -16,6 +16,7 @@ use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::kinds::{conduct, drilling, flow, miscellaneous, variables};
 use ncc_ir::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
 use ncc_ir::source::Span;
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::{CompensationUnexecuted, CycleUnexecuted};
 
 /// Compensation of a move. Without one, all the same.
@@ -185,7 +186,7 @@ impl Exec {
         let entry = match radius {
             CutterRadius::Entry(entry) => match u32::try_from(self.whole_number(entry, span)?) {
                 Ok(entry) => entry,
-                Err(_) => return self.fault(Fault::OutOfRange { word: "".into() }, span),
+                Err(_) => return self.fault(Fault::OutOfRange { word: Ranged::Unnamed }, span),
             },
             CutterRadius::Tool => u32::try_from(self.state.tool).unwrap_or(0),
             CutterRadius::InForce => match self.length_in_force() {

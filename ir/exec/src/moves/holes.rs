@@ -143,7 +143,7 @@ impl Here for Now<'_> {
     }
 
     fn out_of_range(&self) -> Diagnostic {
-        Diagnostic::new(Fault::OutOfRange { word: "".into() }, self.span)
+        Diagnostic::new(Fault::OutOfRange { word: Ranged::Unnamed }, self.span)
     }
 }
 

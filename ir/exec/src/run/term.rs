@@ -11,6 +11,7 @@ use ncc_ir::expr::num::{Num, ONE, POW10, Unit};
 use ncc_ir::expr::system::System;
 use ncc_ir::expr::value::{self, Value, Wrong};
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Unary, Var};
+use ncc_ir::syntax::Ranged;
 use ncc_ir::unexecuted::ValueUnexecuted;
 
 /// An expression made ready.
@@ -278,7 +279,7 @@ pub(crate) fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
         Unit::One | Unit::Mm | Unit::Inch | Unit::Degree | Unit::Second => (9, n * ONE as f64),
     };
     if scaled.abs() >= 9e18 {
-        return Err(Fault::OutOfRange { word: "".into() });
+        return Err(Fault::OutOfRange { word: Ranged::TooLarge { about: n as i64 } });
     }
     // Half away from zero.
     let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;

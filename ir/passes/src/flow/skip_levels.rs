@@ -1,7 +1,11 @@
-//! `skip-levels`: block-skip levels that the target cannot tell apart become the first.
+//! `skip-levels`: replaces block-skip levels that the target lacks by the first level.
 //!
-//! That changes what the switches do, unless the program uses the first level only. A target without
-//! block skip is told; one that has several switches, and not so many, is refused.
+//! ```text
+//! /2 G00 X10.      /G00 X10.      the target has one switch: NC0407
+//! ```
+//!
+//! One switch of the target then skips the blocks of several levels. A block skip on a target without it is refused, and
+//! so is a level above the switches of a target that has several: no free switch is known before the program's end.
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::SKIP;
@@ -15,7 +19,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "skip-levels",
-    about: "makes block-skip levels that the target cannot tell apart one",
+    about: "replaces block-skip levels that the target lacks by the first",
     alone: Some(run),
     step: Step::at(
         Moment::Placing,
@@ -32,7 +36,7 @@ pub(crate) struct SkipLevelsState {
     reported: u16,
 }
 
-/// Makes the levels one, or refuses them.
+/// Replaces the levels, or refuses them.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = SkipLevelsState::default();
     each_body(program, entry, |body, _| limit_skip_levels(body, &mut state, target, diags));

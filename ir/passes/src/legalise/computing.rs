@@ -32,7 +32,7 @@ use ncc_ir::track::Tracker;
 
 impl Legaliser {
     /// What holds behind what has come so far.
-    pub fn stands(&self) -> &Tracker {
+    pub fn entry(&self) -> &Tracker {
         &self.shared.walk.at
     }
 

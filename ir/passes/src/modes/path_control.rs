@@ -1,9 +1,13 @@
-//! `path-control`: how corners are taken, and advice, in the words that the target has.
+//! `path-control`: legalises path modes (exact stop, path blending) and advice to the control.
 //!
-//! Ways of rounding that it cannot say become its plain rounding, going through an end point becomes
-//! stopping at it, and an exact stop of one move becomes a mode for it where the mode before is known.
-//! A mode that the target is always in is left out, and told; another is not, so that its writer
-//! refuses it. Advice that it has no word for is left out and told, once for each kind.
+//! ```text
+//! G64 P0.02 (LinuxCNC)     G64                           a target without a tolerance: plain blending
+//! G09 G01 X10.             G61, G01 X10., G64            a target without an exact stop of one move
+//! ```
+//!
+//! An exact path becomes an exact stop. An exact stop of one move needs a known mode before it. The pass leaves out a mode
+//! that is always active on the target, and reports it. It leaves out advice that the target lacks, and reports each kind
+//! once. Not here: a mode that the target lacks otherwise; its writer refuses it.
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::PATH;
@@ -23,7 +27,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "path-control",
-    about: "says how corners are taken, and advice to the control, in the target's words",
+    about: "replaces path modes and advice to the control by those of the target",
     alone: Some(run),
     step: Step::at(
         Moment::Placing,
@@ -34,25 +38,24 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// What the pass remembers from piece to piece of a program.
+/// The state of the pass between two pieces of a program.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PathControlState {
-    /// The mode that the program has said last.
+    /// The last mode that the program has set.
     said: Option<PathControl>,
-    /// The mode that is to be said again before the block behind the next move, and whether that move
-    /// has been made.
+    /// The mode to restore after the next move, and whether that move has passed.
     again: Option<(PathControl, bool)>,
-    /// What was told, a bit each: kinds of advice, then modes.
+    /// Reported kinds of advice, then modes: a bit each.
     reported: u64,
 }
 
 impl PathControlState {
-    /// Whether a mode waits to be said again.
+    /// Whether a mode must be restored.
     pub(crate) fn is_busy(&self) -> bool {
         self.again.is_some()
     }
 
-    /// What is in force is not known any more: the body of a procedure.
+    /// Forgets the active mode: at the start of a procedure it is not known.
     pub(crate) fn start_over(&mut self) {
         (self.said, self.again) = (None, None);
     }
@@ -64,7 +67,7 @@ impl PathControlState {
     }
 }
 
-/// Brings modes and advice into the target's words.
+/// Legalises the modes and advice of a whole program.
 pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     let mut state = PathControlState::default();
     each_body(program, entry, |body, _| {
@@ -90,7 +93,7 @@ pub(crate) fn convert_path_control(
         }
         match &stmt.op {
             Op::SetMotionControlMode(control) => {
-                let control = sayable(control, caps, stmt.span, state, diags);
+                let control = legal_path_mode(control, caps, stmt.span, state, diags);
                 state.again = None;
                 state.said = stmt.skip.is_none().then(|| control.clone());
                 let freely = control.mode == PathMode::Continuous && caps.modes.rounds_freely;
@@ -147,8 +150,8 @@ pub(crate) fn convert_path_control(
     });
 }
 
-/// The mode in words that the target has, as far as there are any.
-fn sayable(
+/// The nearest mode that the target has; reports what is lost.
+fn legal_path_mode(
     control: &PathControl,
     caps: &Caps,
     at: Span,
