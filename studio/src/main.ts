@@ -2,10 +2,12 @@
 
 import { Editor } from "./editor/editor";
 import { ProblemList } from "./editor/problems";
-import { openEngines } from "./engine/host";
+import { loopbackToken, openEngines } from "./engine/host";
 import { MachinePane } from "./machine/pane";
 import { Desk, download } from "./projects/desk";
 import { ProjectsDialog, wireDrop } from "./projects/dialog";
+import { EXAMPLES, type Example } from "./projects/examples";
+import { Folder } from "./projects/folder";
 import { Store, stored } from "./projects/store";
 import { Session } from "./session";
 import { SetupPane } from "./setup/pane";
@@ -52,7 +54,9 @@ const editor = new Editor(byId("editor"), {
   },
   cursor: (line) => machine.mark(line),
 });
-const desk = new Desk(await Store.open(), session, editor);
+const token = loopbackToken();
+const folder = token === undefined ? undefined : new Folder(token);
+const desk = new Desk(await Store.open(), session, editor, folder);
 const problems = new ProblemList((line, column) => {
   editor.goTo(line, column);
   editor.focus();
@@ -137,7 +141,7 @@ player.now.on((now) => {
   if (path) void session.seek(movesOver(path, now));
 });
 
-await desk.begin();
+await desk.begin().catch(() => desk.example(EXAMPLES[0] as Example));
 try {
   const engines = await coming;
   await session.start(engines, () => editor.text);
@@ -147,6 +151,6 @@ try {
   session.state.set("failed");
   session.checked.set({ problems: [], notChecked: [], told: `${say("noEngine")}\n${String(error)}` });
 }
-if ("serviceWorker" in navigator && document.querySelector('meta[name="ncc-host"][content="worker"]')) {
+if ("serviceWorker" in navigator && token === undefined) {
   void navigator.serviceWorker.register("sw.js").catch(() => undefined);
 }

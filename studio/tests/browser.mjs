@@ -26,7 +26,7 @@ export async function begin() {
 
 /** A page in a world of its own. `faults` are errors that it told: each is a failure. */
 export async function open({ site, binary, browser }, options = {}) {
-  const { host = "worker", width = 1280, height = 800, path = "", context: given, script, ...rest } = options;
+  const { host = "worker", address, width = 1280, height = 800, path = "", context: given, script, ...rest } = options;
   const context =
     given ?? (await browser.newContext({ viewport: { width, height }, locale: "en-US", acceptDownloads: true, ...rest }));
   const page = await context.newPage();
@@ -34,7 +34,7 @@ export async function open({ site, binary, browser }, options = {}) {
   page.on("pageerror", (error) => faults.push(String(error)));
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   if (script) await page.addInitScript(script);
-  await page.goto(host === "worker" ? site.url + path : `${binary.url}#token=${TOKEN}`);
+  await page.goto(address ?? (host === "worker" ? site.url + path : `${binary.url}#token=${TOKEN}`));
   await ready(page);
   return { page, context, faults };
 }

@@ -31,6 +31,12 @@ function engine(module) {
   };
 }
 
+/** The list of programs: none. What the binary does with a folder is tested with the binary. */
+function list(answer) {
+  answer.writeHead(200, { "content-type": "application/json" });
+  answer.end(JSON.stringify({ folder: "empty", open: true, programs: [], stamp: "0" }));
+}
+
 /** Answers requests to `/engine/…` and for the page itself; others it leaves alone. */
 export function loopback(folder) {
   const module = new WebAssembly.Module(readFileSync(join(folder, "engine.wasm")));
@@ -42,6 +48,9 @@ export function loopback(folder) {
       answer.end(page.replace('name="ncc-host" content="worker"', 'name="ncc-host" content="loopback"'));
       return true;
     }
+    if (request.url === "/programs") return (list(answer), true);
+    // Nothing ever changes.
+    if (request.url.startsWith("/programs?")) return true;
     const found = /^\/engine\/(\w+)\/(run|files\/(.*))$/.exec(request.url);
     if (!found) return false;
     const parts = [];

@@ -2,7 +2,10 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { readFileSync } from "node:fs";
+import { spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { begin, line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
 import { ASKS, SQUARE, long } from "./programs.mjs";
 
@@ -397,6 +400,43 @@ page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
 test("the binary's engine works for nobody without the token", async () => {
   const answer = await fetch(`${world.binary.url}engine/quick/run`, { method: "POST", body: "{}" });
   assert.equal(answer.status, 401);
+});
+
+const NCC = process.env.NCC;
+test("ncc studio: a folder's programs are opened, saved back, and followed", { skip: !NCC && "NCC names no binary" }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "ncc-studio-"));
+  const file = join(folder, "part.nc");
+  writeFileSync(file, SQUARE);
+  const server = spawn(NCC, ["studio", folder, "--no-open"], { stdio: ["ignore", "pipe", "pipe"] });
+  try {
+    const address = await new Promise((done, failed) => {
+      let said = "";
+      const hear = (text) => {
+        said += text;
+        const found = /http:\/\/\S+#token=\w+/.exec(said);
+        if (found) done(found[0]);
+      };
+      server.stdout.on("data", hear);
+      server.stderr.on("data", hear);
+      server.on("exit", () => failed(new Error(said)));
+    });
+    const { page: own, context, faults } = await open(world, { address });
+    assert.equal(await value(own, "#project-name"), "part.nc");
+    await type(own, SQUARE.replace("(SQUARE)", "(TYPED)"));
+    await own.waitForFunction(() => document.querySelector("#save-state").textContent === "Saved");
+    assert.match(readFileSync(file, "utf8"), /TYPED/);
+    writeFileSync(file, SQUARE.replace("(SQUARE)", "(ELSEWHERE)"));
+    await own.locator("#editor .cm-line", { hasText: "ELSEWHERE" }).waitFor();
+    await ready(own);
+    await own.click("#tab-translate");
+    await own.selectOption("#to", "siemens");
+    await ready(own);
+    assert.equal(await value(own, "#verdict"), "Verified: it does the same");
+    assert.deepEqual(faults, []);
+    await context.close();
+  } finally {
+    server.kill();
+  }
 });
 
 test("where WebGL 2 is missing, the page says so and does the rest", async () => {

@@ -16,10 +16,10 @@ const WARM = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG54 G0 X0. Y0. S1000 M3
 
 /** The engines, warm: browsers compile a function when it first runs. */
 export async function openEngines(): Promise<Engines> {
-  const host = document.querySelector<HTMLMetaElement>('meta[name="ncc-host"]')?.content;
-  if (host === "loopback") {
-    const token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
-    return { quick: new Loopback(token, "quick"), heavy: new Loopback(token, "heavy") };
+  const token = loopbackToken();
+  if (token !== undefined) {
+    const own = room();
+    return { quick: new Loopback(token, `${own}-quick`), heavy: new Loopback(token, `${own}-heavy`) };
   }
   const module = await load("engine.wasm");
   const [quick, heavy] = [new WorkerHost(module, "worker.js"), new WorkerHost(module, "worker.js")];
@@ -34,4 +34,18 @@ export async function openEngines(): Promise<Engines> {
   // What goes wrong here goes wrong again with the program, and is told then.
   warm.forEach((one) => void one.catch(() => undefined));
   return { quick, heavy };
+}
+
+/** The token of the binary that serves the page, if one does. */
+export function loopbackToken(): string | undefined {
+  const host = document.querySelector<HTMLMetaElement>('meta[name="ncc-host"]')?.content;
+  return host === "loopback" ? (new URLSearchParams(location.hash.slice(1)).get("token") ?? "") : undefined;
+}
+
+/** A name for this tab's engines; it outlives a reload, so that engines do not gather. */
+function room(): string {
+  const name = "ncc-room";
+  const known = sessionStorage.getItem(name) ?? Math.random().toString(36).slice(2, 12);
+  sessionStorage.setItem(name, known);
+  return known;
 }

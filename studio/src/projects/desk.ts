@@ -5,6 +5,7 @@ import type { Session } from "../session";
 import { Signal } from "../ui/signal";
 import { say, type TextName } from "../ui/texts";
 import { EXAMPLES, type Example } from "./examples";
+import type { Folder, List } from "./folder";
 import { bytesOf, noChoices, projectOf, type Project } from "./project";
 import type { Store } from "./store";
 
@@ -12,6 +13,8 @@ import type { Store } from "./store";
 const QUIET = 600;
 
 export class Desk {
+  /** The programs of the folder that the binary serves. */
+  list: List | undefined;
   readonly saved = new Signal<TextName>("saved");
   private timer = 0;
   /** Tells other tabs which project was saved. */
@@ -21,6 +24,7 @@ export class Desk {
     readonly store: Store,
     private readonly session: Session,
     private readonly editor: Editor,
+    private readonly folder?: Folder,
   ) {
     if (this.others) this.others.onmessage = (event: MessageEvent<string>) => void this.savedElsewhere(event.data);
     // A tab that goes away saves what is left.
@@ -35,8 +39,19 @@ export class Desk {
     return this.session.project.get();
   }
 
-  /** The project that was open last, or the first example. */
+  /** The project that was open last, or the first program of the folder, or the first example. */
   async begin(): Promise<void> {
+    if (this.folder && !this.list) {
+      this.list = await this.folder.list();
+      void this.folder.watch(this.list.stamp, (list) => {
+        this.list = list;
+        void this.changedOnDisk();
+      });
+      const names = this.list.programs.map((one) => one.name);
+      const last = this.store.current && (await this.store.get(this.store.current))?.[0].disk?.name;
+      const name = names.find((one) => one === last) ?? names[0];
+      if (name) return this.openProgram(name);
+    }
     const found = this.store.current && (await this.store.get(this.store.current));
     if (found) return this.show(...found);
     const [last] = await this.store.list();
@@ -48,6 +63,20 @@ export class Desk {
     await this.save();
     const found = await this.store.get(id);
     if (found) this.show(...found);
+  }
+
+  /** Opens a program of the folder. What was chosen for it is kept; its text is the file's. */
+  async openProgram(name: string): Promise<void> {
+    await this.save();
+    const read = await this.folder?.read(name);
+    if (!read) return;
+    const [bytes, tag] = read;
+    const [made, text] = projectOf(name, name, bytes);
+    const id = `disk/${this.list?.folder ?? ""}/${name}`;
+    const choices = (await this.store.get(id))?.[0].choices ?? made.choices;
+    const project: Project = { ...made, id, choices, disk: { name, tag } };
+    await this.store.put(project, text);
+    this.show(project, text);
   }
 
   async create(name: string, file: string, bytes: Uint8Array, from = "auto"): Promise<void> {
@@ -70,7 +99,8 @@ export class Desk {
     const [project, text] = found;
     const now = Date.now();
     const name = await this.freeName(project.name);
-    await this.store.put({ ...project, id: crypto.randomUUID?.() ?? `${now}`, name, created: now, changed: now }, text);
+    const { disk: _, ...free } = project;
+    await this.store.put({ ...free, id: crypto.randomUUID?.() ?? `${now}`, name, created: now, changed: now }, text);
   }
 
   async rename(id: string, name: string): Promise<void> {
@@ -112,6 +142,13 @@ export class Desk {
     const { text } = this.editor;
     this.saved.set("saving");
     project.changed = Date.now();
+    if (project.disk && this.folder) {
+      const { name, tag } = project.disk;
+      const now = await this.folder.write(name, bytesOf(project, text), tag).catch(() => undefined);
+      // What somebody else wrote stays; here nothing is lost.
+      if (now === undefined) this.saved.set("otherDisk");
+      else project.disk.tag = now;
+    }
     await this.store.put(project, text);
     this.others?.postMessage(project.id);
     if (this.saved.get() === "saving") this.saved.set(this.store.keeps ? "saved" : "noStorage");
@@ -147,6 +184,17 @@ export class Desk {
       this.show(...found);
       this.editor.goTo(line);
     }
+  }
+
+  /** A program of the folder was changed by somebody: it is taken over, unless there is a text here that is not saved. */
+  private async changedOnDisk(): Promise<void> {
+    const disk = this.project?.disk;
+    const read = disk && (await this.folder?.read(disk.name));
+    if (!read || !disk || read[1] === disk.tag || this.project?.disk !== disk) return;
+    if (this.saved.get() !== "saved") return this.saved.set("otherDisk");
+    const line = this.editor.cursor;
+    await this.openProgram(disk.name);
+    this.editor.goTo(line);
   }
 
   private async freeName(name: string): Promise<string> {

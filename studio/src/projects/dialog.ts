@@ -29,7 +29,7 @@ export class ProjectsDialog {
   private async fill(): Promise<void> {
     const projects = await this.desk.store.list();
     const input = el("input", { type: "file", multiple: true, hidden: true, onchange: () => void this.take(input.files) });
-    const own = el("ul", { id: "projects-list" }, ...projects.map((project) => this.row(project)));
+    const own = el("ul", { id: "projects-list" }, ...projects.filter((one) => !one.disk).map((project) => this.row(project)));
     const examples = EXAMPLES.map((example) => {
       const take = () => void this.desk.example(example).then(() => this.dialog.close());
       const [sentence] = [example.sentence[this.language === "pt" ? 1 : 0]];
@@ -40,10 +40,23 @@ export class ProjectsDialog {
       el("header", {}, el("h2", { id: "projects-title" }, say("projects")), close),
       this.newForm(el("button", { type: "button", onclick: () => input.click() }, say("import"))),
       input,
+      ...this.onDisk(),
       own,
       el("h3", {}, say("examples")),
       el("ul", { id: "examples" }, ...examples),
     );
+  }
+
+  /** Programs of the folder that the binary serves. */
+  private onDisk(): HTMLElement[] {
+    const { list } = this.desk;
+    if (!list) return [];
+    const rows = list.programs.map(({ name }) => {
+      const take = () => void this.desk.openProgram(name).then(() => this.dialog.close());
+      const current = this.desk.project?.disk?.name === name;
+      return el("li", { class: current ? "current" : "" }, el("button", { class: "take", onclick: take }, el("b", {}, name)));
+    });
+    return [el("h3", {}, list.folder), el("ul", { id: "folder-list" }, ...rows), el("h3", {}, say("projects"))];
   }
 
   private newForm(importing: HTMLElement): HTMLElement {
