@@ -14,7 +14,7 @@ pub enum Way {
     /// An arc or a helix at feed.
     Arc {
         /// First and second axis of its plane, and the axis normal to it: 0 is X, 1 is Y, 2 is Z.
-        plane: [usize; 3],
+        plane: [u8; 3],
         /// Its centre along the first and the second axis, mm.
         centre: [f64; 2],
         /// Angle from start to end, radians; positive from the first axis towards the second.

@@ -289,7 +289,7 @@ fn lowest(from: [f64; 3], own: &Move) -> f64 {
     match own.way {
         // An arc in another plane may go below both of its ends.
         Way::Arc { plane, centre, sweep } if plane[2] != 2 => {
-            chords(from, own.end, plane, centre, sweep).map(|at| at[2]).fold(ends, f64::min)
+            chords(from, own.end, plane.map(usize::from), centre, sweep).map(|at| at[2]).fold(ends, f64::min)
         }
         Way::Away => f64::INFINITY,
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,

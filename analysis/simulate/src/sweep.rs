@@ -37,7 +37,7 @@ pub(crate) fn sweep(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to:
         }
         Way::Arc { plane, centre, sweep } => {
             let mut last = from;
-            for at in chords(from, to, *plane, *centre, *sweep) {
+            for at in chords(from, to, plane.map(usize::from), *centre, *sweep) {
                 straight(cells, cutter, last, at);
                 last = at;
             }

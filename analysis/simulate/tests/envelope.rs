@@ -34,7 +34,8 @@ fn point() -> impl Strategy<Value = [f64; 3]> {
 /// Where the tip is after a part of a move.
 fn place(from: [f64; 3], own: &Move, part: f64) -> [f64; 3] {
     let straight: [f64; 3] = std::array::from_fn(|axis| from[axis] + part * (own.end[axis] - from[axis]));
-    let Way::Arc { plane: [f, s, _], centre, sweep } = own.way else { return straight };
+    let Way::Arc { plane, centre, sweep } = own.way else { return straight };
+    let [f, s, _] = plane.map(usize::from);
     let arm = [from[f] - centre[0], from[s] - centre[1]];
     let (sin, cos) = (sweep * part).sin_cos();
     let mut at = straight;
@@ -123,9 +124,9 @@ proptest! {
         arm in [-6.0..6.0_f64, -6.0..6.0_f64],
         sweep in -6.2..6.2_f64,
         climb in prop_oneof![Just(0.0), -3.0..3.0_f64],
-        plane in prop_oneof![Just([0, 1, 2]), Just([2, 0, 1]), Just([1, 2, 0])],
+        plane in prop_oneof![Just([0_u8, 1, 2]), Just([2, 0, 1]), Just([1, 2, 0])],
     ) {
-        let [f, s, n] = plane;
+        let [f, s, n] = plane.map(usize::from);
         let centre = [from[f] + arm[0], from[s] + arm[1]];
         let way = Way::Arc { plane, centre, sweep };
         let mut own = Move { way, end: from, tool: 0, turns: true, time: 0.0, line: 0 };

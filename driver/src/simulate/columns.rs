@@ -74,9 +74,10 @@ impl Columns {
     fn r#move(&mut self, n: usize, path: &Path, from: [f64; 3]) {
         let own = &path.moves[n];
         let [begin, end] = [path.begins[n], own.time];
-        let Way::Arc { plane: [f, s, normal], centre, sweep } = own.way else {
+        let Way::Arc { plane, centre, sweep } = own.way else {
             return self.piece(n, path, [from, own.end], [begin, end]);
         };
+        let [f, s, normal] = plane.map(usize::from);
         let count = (sweep.abs() / std::f64::consts::TAU * PIECES).ceil().clamp(1.0, 1e4) as usize;
         let arm = [from[f] - centre[0], from[s] - centre[1]];
         let (radius, end_radius) =

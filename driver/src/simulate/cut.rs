@@ -45,7 +45,7 @@ pub struct Worked {
 pub struct CutProgram {
     /// The part, its moves, its alarms.
     pub simulation: Simulation,
-    /// The rest of what is known of the moves.
+    /// The rest of what is known of the moves; the moves themselves are the simulation's.
     pub path: Path,
     /// The tools, by their places.
     pub tools: Vec<Fitted>,
@@ -57,7 +57,7 @@ pub struct CutProgram {
 ///
 /// # Errors
 /// As [`Uncut`] says.
-pub fn cut(path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgram, Uncut> {
+pub fn cut(mut path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgram, Uncut> {
     if let Some((why, span)) = path.unsimulated {
         return Err(Uncut::Unsimulated(why, span));
     }
@@ -73,8 +73,9 @@ pub fn cut(path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgram, U
         start: path.start,
     });
     let mut worked = vec![Worked::default(); tools.len()];
-    for (own, begin) in path.moves.iter().zip(&path.begins) {
-        simulation.push(*own);
+    // The kernel keeps them.
+    for (own, begin) in std::mem::take(&mut path.moves).into_iter().zip(&path.begins) {
+        simulation.push(own);
         let removed = simulation.removed()[simulation.shown() - 1];
         let work = &mut worked[own.tool];
         work.volume += f64::from(removed.volume);
@@ -104,13 +105,14 @@ impl CutProgram {
 
     /// How many moves are over at a moment, seconds on the clock.
     pub fn moves_at(&self, time: f64) -> usize {
-        self.path.moves.partition_point(|own| own.time <= time)
+        self.simulation.moves().partition_point(|own| own.time <= time)
     }
 
     /// How many moves are over when a line of the source has been carried out for the first time.
     pub fn moves_behind_line(&self, line: u32) -> usize {
-        let first = self.path.moves.iter().position(|own| own.line >= line).unwrap_or(self.path.moves.len());
-        let end = self.path.moves[first..].iter().position(|own| own.line != line);
-        first + end.unwrap_or(self.path.moves.len() - first)
+        let moves = self.simulation.moves();
+        let first = moves.iter().position(|own| own.line >= line).unwrap_or(moves.len());
+        let end = moves[first..].iter().position(|own| own.line != line);
+        first + end.unwrap_or(moves.len() - first)
     }
 }

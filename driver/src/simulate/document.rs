@@ -193,7 +193,7 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
         source: about.source,
         dialect: about.dialect,
         time: micro(cut.path.end),
-        moves: cut.path.moves.len(),
+        moves: cut.simulation.moves().len(),
         raw: Raw {
             form: match setup.stock {
                 Stock::Block { .. } => "block",

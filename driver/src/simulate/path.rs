@@ -135,8 +135,8 @@ impl<'t> Recorder<'t> {
                 own.end[axis] -= zero;
             }
             if let Way::Arc { plane, centre, .. } = &mut own.way {
-                centre[0] -= zero[plane[0]];
-                centre[1] -= zero[plane[1]];
+                centre[0] -= zero[usize::from(plane[0])];
+                centre[1] -= zero[usize::from(plane[1])];
             }
         }
         let unit = if inch { 25.4 } else { 1.0 };
@@ -262,7 +262,7 @@ impl Sink for Recorder<'_> {
                 let plane = [first, second, normal].map(|axis| axis as usize);
                 let sense = if turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
                 let centre = [0, 1].map(|n| mm(centre[n] - adds[plane[n]]));
-                Way::Arc { plane, centre, sweep: sense * way.sweep }
+                Way::Arc { plane: plane.map(|axis| axis as u8), centre, sweep: sense * way.sweep }
             }
         };
         match self.high {

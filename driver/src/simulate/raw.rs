@@ -119,15 +119,19 @@ pub fn guess(path: &Path, tools: &[Fitted]) -> Option<Stock> {
             }
             Way::Feed => 0.0,
             // An arc stays within its circle.
-            Way::Arc { plane, centre, .. } => (from[plane[0]] - centre[0]).hypot(from[plane[1]] - centre[1]),
+            Way::Arc { plane, centre, .. } => {
+                let [f, s, _] = plane.map(usize::from);
+                (from[f] - centre[0]).hypot(from[s] - centre[1])
+            }
         };
         let mut boxed = [from, own.end];
         if let Way::Arc { plane, centre, sweep } = own.way
             && sweep.abs() > std::f64::consts::FRAC_PI_2
         {
             for n in 0..2 {
-                boxed[0][plane[n]] = boxed[0][plane[n]].min(centre[n] - reach);
-                boxed[1][plane[n]] = boxed[1][plane[n]].max(centre[n] + reach);
+                let axis = usize::from(plane[n]);
+                boxed[0][axis] = boxed[0][axis].min(centre[n] - reach);
+                boxed[1][axis] = boxed[1][axis].max(centre[n] + reach);
             }
         }
         for at in boxed {
