@@ -117,6 +117,18 @@ both("a problem stands in its line and in the list, and a click goes there", {},
   assert.equal(await line(own), 8);
 });
 
+page("an alarm of the part is a problem, and a click goes to its moment", {}, async (own) => {
+  await projects(own);
+  await own.locator("#examples button", { hasText: "dome.nc" }).click();
+  await named(own, "dome");
+  const row = own.locator("#problems-list button", { hasText: "NC0901" }).first();
+  await row.click();
+  assert.equal(await line(own), 18);
+  const [now, total] = (await value(own, "#clock")).split(" / ");
+  assert.notEqual(now, total);
+  assert.ok((await pixels(own, "#bands", { alarm: "--warning" })).alarm > 10);
+});
+
 page("a word under the pointer is explained, and words are offered while somebody types", {}, async (own) => {
   await type(own, SQUARE);
   await own.locator("#editor .c-code-g", { hasText: "G43" }).first().hover();
