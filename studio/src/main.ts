@@ -57,10 +57,13 @@ const editor = new Editor(byId("editor"), {
 const token = loopbackToken();
 const folder = token === undefined ? undefined : new Folder(token);
 const desk = new Desk(await Store.open(), session, editor, folder);
-const problems = new ProblemList((line, column) => {
+const problems = new ProblemList(({ place: { line, column }, time }) => {
   editor.goTo(line, column);
   editor.focus();
   machine.mark(line);
+  if (time === undefined) return;
+  player.playing.set(false);
+  player.seek(time);
 });
 const charts = new Charts(byId("charts"), (time) => {
   player.playing.set(false);

@@ -1,17 +1,18 @@
 // What the tests of the page share: the browser, a page that is ready, pixels.
 
 import { chromium } from "playwright-core";
-import { existsSync } from "node:fs";
-import { TOKEN, loopback } from "./loopback.mjs";
+import { existsSync, mkdtempSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { NCC, studio } from "./binary.mjs";
 import { serve } from "./server.mjs";
 
 const WAYS = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 
 /** The browser, and the static page on a port of its own. */
 export async function begin() {
-  const folder = process.env.STUDIO_SITE;
-  const site = await serve(folder);
-  const binary = await serve(folder, loopback(folder));
+  const site = await serve(process.env.STUDIO_SITE);
+  const binary = NCC ? await studio(mkdtempSync(join(tmpdir(), "ncc-studio-"))) : undefined;
   const executablePath = WAYS.find((way) => way && existsSync(way));
   const browser = await chromium.launch({
     executablePath,
@@ -19,7 +20,8 @@ export async function begin() {
   });
   const end = async () => {
     await browser.close();
-    await Promise.all([site.close(), binary.close()]);
+    binary?.end();
+    await site.close();
   };
   return { site, binary, browser, end };
 }
@@ -34,7 +36,7 @@ export async function open({ site, binary, browser }, options = {}) {
   page.on("pageerror", (error) => faults.push(String(error)));
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   if (script) await page.addInitScript(script);
-  await page.goto(address ?? (host === "worker" ? site.url + path : `${binary.url}#token=${TOKEN}`));
+  await page.goto(address ?? (host === "worker" ? site.url + path : binary.address));
   await ready(page);
   return { page, context, faults };
 }

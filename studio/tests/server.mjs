@@ -13,10 +13,9 @@ const TYPES = {
   ".webmanifest": "application/manifest+json",
 };
 
-/** Serves a folder; gives the address and what ends it. `first` may answer a request itself. */
-export async function serve(folder, first = async () => false) {
+/** Serves a folder; gives the address and what ends it. */
+export async function serve(folder) {
   const server = createServer(async (request, answer) => {
-    if (await first(request, answer)) return;
     const path = normalize(new URL(request.url, "http://x").pathname);
     const file = join(folder, path.endsWith("/") ? "index.html" : path);
     try {

@@ -2,11 +2,11 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { begin, line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
+import { NCC, studio } from "./binary.mjs";
 import { ASKS, SQUARE, long } from "./programs.mjs";
 
 let world;
@@ -15,7 +15,8 @@ after(() => world.end());
 
 /** A test with a page of its own, which must tell no error. */
 function page(name, options, body) {
-  test(name, async () => {
+  const skip = options.host === "loopback" && !NCC && "NCC names no binary";
+  test(name, { skip }, async () => {
     const opened = await open(world, options);
     try {
       await body(opened.page, opened);
@@ -114,6 +115,18 @@ both("a problem stands in its line and in the list, and a click goes there", {},
   assert.ok((await own.locator("#editor .cm-lintRange").count()) > 0);
   await row.click();
   assert.equal(await line(own), 8);
+});
+
+page("an alarm of the part is a problem, and a click goes to its moment", {}, async (own) => {
+  await projects(own);
+  await own.locator("#examples button", { hasText: "dome.nc" }).click();
+  await named(own, "dome");
+  const row = own.locator("#problems-list button", { hasText: "NC0901" }).first();
+  await row.click();
+  assert.equal(await line(own), 18);
+  const [now, total] = (await value(own, "#clock")).split(" / ");
+  assert.notEqual(now, total);
+  assert.ok((await pixels(own, "#bands", { alarm: "--warning" })).alarm > 10);
 });
 
 page("a word under the pointer is explained, and words are offered while somebody types", {}, async (own) => {
@@ -397,30 +410,13 @@ page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
   assert.ok((await pixels(own, "#canvas", { feed: "--c-move-feed" })).feed > 50);
 });
 
-test("the binary's engine works for nobody without the token", async () => {
-  const answer = await fetch(`${world.binary.url}engine/quick/run`, { method: "POST", body: "{}" });
-  assert.equal(answer.status, 401);
-});
-
-const NCC = process.env.NCC;
 test("ncc studio: a folder's programs are opened, saved back, and followed", { skip: !NCC && "NCC names no binary" }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "ncc-studio-"));
   const file = join(folder, "part.nc");
   writeFileSync(file, SQUARE);
-  const server = spawn(NCC, ["studio", folder, "--no-open"], { stdio: ["ignore", "pipe", "pipe"] });
+  const server = await studio(folder);
   try {
-    const address = await new Promise((done, failed) => {
-      let said = "";
-      const hear = (text) => {
-        said += text;
-        const found = /http:\/\/\S+#token=\w+/.exec(said);
-        if (found) done(found[0]);
-      };
-      server.stdout.on("data", hear);
-      server.stderr.on("data", hear);
-      server.on("exit", () => failed(new Error(said)));
-    });
-    const { page: own, context, faults } = await open(world, { address });
+    const { page: own, context, faults } = await open(world, { address: server.address });
     assert.equal(await value(own, "#project-name"), "part.nc");
     await type(own, SQUARE.replace("(SQUARE)", "(TYPED)"));
     await own.waitForFunction(() => document.querySelector("#save-state").textContent === "Saved");
@@ -435,7 +431,7 @@ test("ncc studio: a folder's programs are opened, saved back, and followed", { s
     assert.deepEqual(faults, []);
     await context.close();
   } finally {
-    server.kill();
+    server.end();
   }
 });
 

@@ -13,7 +13,7 @@ export class ProblemList {
   private readonly list = byId("problems-list");
   private readonly head = byId("problems-head");
 
-  constructor(private readonly goTo: (line: number, column: number) => void) {
+  constructor(private readonly goTo: (problem: Problem) => void) {
     this.head.addEventListener("click", () => this.toggle(this.list.hidden === true));
   }
 
@@ -45,7 +45,7 @@ export class ProblemList {
     text.append(...advice.map((one) => el("span", { class: "advice" }, one)));
     const button = el(
       "button",
-      { onclick: () => this.goTo(place.line, place.column), "data-line": place.line },
+      { onclick: () => this.goTo(problem), "data-line": place.line },
       dot(severity, ""),
       el("span", { class: "at" }, String(place.line)),
       text,

@@ -22,6 +22,8 @@ export interface Problem {
   message: string;
   place: Place;
   advice: string[];
+  /** When it happens, seconds, where that is known. */
+  time?: number;
 }
 
 /** Of the verb `check`. */

@@ -20,7 +20,7 @@ export interface Tool {
   cutting: number;
 }
 
-export interface Alarm extends Omit<Problem, "code"> {
+export interface Alarm extends Omit<Problem, "code" | "time"> {
   id: string;
   kind: string;
   /** Seconds. */

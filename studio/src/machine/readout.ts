@@ -16,7 +16,7 @@ export class Readout {
   private readonly values = new Map<string, HTMLElement>();
 
   constructor() {
-    const rows = ["X", "Y", "Z", "", "F", "S", "T", "D", "", "block", "move", "time"];
+    const rows = ["X", "Y", "Z", "", "F", "S", "T", "Ø", "", "block", "move", "time"];
     const names: Record<string, string> = { block: say("line"), move: "", time: say("time") };
     for (const row of rows) {
       if (!row) {
@@ -44,7 +44,7 @@ export class Readout {
     put("S", figure(path.speed[at] ?? 0, 0));
     // The number in a list of tools is the compiler's; the shop's is the tool's own.
     put("T", tool ? (tool.number === null ? "–" : String(tool.number)) : "–");
-    put("D", tool ? `${tool.known === "guess" ? "≈ " : ""}${figure(tool.diameter, 1)} ${tool.shape}` : "–");
+    put("Ø", tool ? `${tool.known === "guess" ? "≈ " : ""}${figure(tool.diameter, 1)}` : "–");
     put("block", String(path.line[at] ?? 0));
     put("move", say(KINDS[path.kind[at] ?? 0] ?? "rapid"));
     put("time", clock(now.time));
