@@ -11,7 +11,8 @@ const WAYS = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-brow
 
 /** The browser, and the static page on a port of its own. */
 export async function begin() {
-  const site = await serve(process.env.STUDIO_SITE);
+  // Without the engine as WebAssembly there is the binary alone.
+  const site = process.env.STUDIO_SITE ? await serve(process.env.STUDIO_SITE) : undefined;
   const binary = NCC ? await studio(mkdtempSync(join(tmpdir(), "ncc-studio-"))) : undefined;
   const executablePath = WAYS.find((way) => way && existsSync(way));
   const browser = await chromium.launch({
@@ -21,7 +22,7 @@ export async function begin() {
   const end = async () => {
     await browser.close();
     binary?.end();
-    await site.close();
+    await site?.close();
   };
   return { site, binary, browser, end };
 }
