@@ -6,16 +6,19 @@ use crate::band::Band;
 use crate::surface::{Cells, Surface};
 
 /// A level arc: over each cell, the nearest place of the tip counts.
-pub(super) fn level_arc(cells: &mut impl Cells, band: &Band, from: [f64; 3], centre: [f64; 2], sweep: f64) {
+pub(super) fn level_arc(
+    cells: &mut impl Cells,
+    band: &Band,
+    [from, to]: [[f64; 3]; 2],
+    centre: [f64; 2],
+    sweep: f64,
+) {
     let grid = cells.grid();
-    let start = [from[0] - centre[0], from[1] - centre[1]];
-    let radius = start[0].hypot(start[1]);
-    let (sin, cos) = sweep.sin_cos();
-    let end = [start[0] * cos - start[1] * sin, start[0] * sin + start[1] * cos];
-    let sector = Sector { start, end, sweep };
+    let sector = Sector::new([from, to].map(|at| [at[0] - centre[0], at[1] - centre[1]]), sweep);
     let outer = band.outer;
+    let radius = sector.radii[0].max(sector.radii[1]);
     let [low, high] = sector.box_around(radius);
-    let hole = radius - outer;
+    let hole = sector.radii[0].min(sector.radii[1]) - outer;
     let [columns, rows] = [0, 1]
         .map(|axis| grid.between(axis, centre[axis] + low[axis] - outer, centre[axis] + high[axis] + outer));
     if columns.is_empty() || rows.is_empty() {
@@ -35,8 +38,7 @@ pub(super) fn level_arc(cells: &mut impl Cells, band: &Band, from: [f64; 3], cen
                 continue;
             }
             let x0 = grid.centre(0, columns.start) - centre[0];
-            let surface =
-                Ring { sector: &sector, band, radius, floor: from[2], from: [x0, y], cell: grid.cell };
+            let surface = Ring { sector: &sector, band, floor: from[2], from: [x0, y], cell: grid.cell };
             cells.row(row, columns, &surface);
         }
     }
@@ -46,8 +48,6 @@ pub(super) fn level_arc(cells: &mut impl Cells, band: &Band, from: [f64; 3], cen
 struct Ring<'r> {
     sector: &'r Sector,
     band: &'r Band,
-    /// Radius of the arc.
-    radius: f64,
     floor: f64,
     /// The first cell, from the centre of the arc.
     from: [f64; 2],
@@ -59,7 +59,7 @@ impl Surface for Ring<'_> {
     fn at(&self, i: f32x4) -> f32x4 {
         f32x4::new(i.to_array().map(|i| {
             let at = [self.from[0] + f64::from(i) * self.cell, self.from[1]];
-            let distance = self.sector.distance(at, self.radius);
+            let distance = self.sector.distance(at);
             match distance <= self.band.outer {
                 true => (self.floor + self.band.height(distance)) as f32,
                 false => f32::INFINITY,
@@ -68,14 +68,51 @@ impl Surface for Ring<'_> {
     }
 }
 
-/// An arc about the origin.
+/// An arc about the origin. Its end may be a little farther from there than its start, or nearer, as controls allow it for
+/// rounded numbers: what that is, is spread over the arc.
 struct Sector {
     start: [f64; 2],
     end: [f64; 2],
+    /// Distances of both.
+    radii: [f64; 2],
     sweep: f64,
 }
 
+/// The direction of a place in quarters of a turn, from 0 to 4: it grows as the angle does, which is enough to spread what
+/// is small.
+#[inline]
+fn quarters([x, y]: [f64; 2]) -> f64 {
+    let part = y / (x.abs() + y.abs()).max(f64::MIN_POSITIVE);
+    if x < 0.0 {
+        2.0 - part
+    } else if y < 0.0 {
+        4.0 + part
+    } else {
+        part
+    }
+}
+
 impl Sector {
+    fn new([start, end]: [[f64; 2]; 2], sweep: f64) -> Sector {
+        let radii = [start, end].map(|[x, y]: [f64; 2]| (x * x + y * y).sqrt());
+        Sector { start, end, radii, sweep }
+    }
+
+    /// The radius of the arc in a direction that is one of it.
+    #[inline]
+    fn radius(&self, at: [f64; 2]) -> f64 {
+        let [begin, end] = self.radii;
+        if begin == end {
+            return begin;
+        }
+        // Quarters from one direction to another in the sense of the arc.
+        let turn =
+            |to: [f64; 2]| ((quarters(to) - quarters(self.start)) * self.sweep.signum()).rem_euclid(4.0);
+        let all = turn(self.end);
+        let part = if all > 0.0 { (turn(at) / all).min(1.0) } else { 0.0 };
+        begin + (end - begin) * part
+    }
+
     /// Whether a direction is one of the arc.
     #[inline]
     fn has(&self, at: [f64; 2]) -> bool {
@@ -92,11 +129,12 @@ impl Sector {
 
     /// Distance of a place from the arc.
     #[inline]
-    fn distance(&self, at: [f64; 2], radius: f64) -> f64 {
+    fn distance(&self, at: [f64; 2]) -> f64 {
+        let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
         if self.has(at) {
-            return (at[0].hypot(at[1]) - radius).abs();
+            return (length(at) - self.radius(at)).abs();
         }
-        let from = |end: [f64; 2]| (at[0] - end[0]).hypot(at[1] - end[1]);
+        let from = |end: [f64; 2]| length([at[0] - end[0], at[1] - end[1]]);
         from(self.start).min(from(self.end))
     }
 

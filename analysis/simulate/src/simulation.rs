@@ -16,6 +16,10 @@ use crate::tool::{Cutter, Tool};
 /// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
 const TOUCH: f32 = 0.001;
 
+/// So much less radius has what is looked for in material, mm: a tool may go along the wall that it has cut itself, and places
+/// are rounded.
+const BESIDE: f64 = 0.002;
+
 /// What is set up before the first move.
 #[derive(Clone, Debug)]
 pub struct Setup {
@@ -47,6 +51,7 @@ pub struct Removed {
 /// What of a tool may not touch anything, above its cutter.
 #[derive(Clone, Debug)]
 struct Body {
+    cutter: Cutter,
     shank: Option<Cutter>,
     holder: Option<Cutter>,
 }
@@ -73,8 +78,12 @@ impl Simulation {
     pub fn new(setup: Setup) -> Simulation {
         let map = setup.stock.map(setup.cells);
         let bodies = setup.tools.iter().map(|tool| Body {
-            shank: tool.shank.zip(tool.flute).map(|(radius, base)| Cutter::cylinder(radius, base)),
-            holder: tool.holder.map(|[radius, base]| Cutter::cylinder(radius, base)),
+            cutter: tool.cutter.thinner(BESIDE),
+            shank: tool
+                .shank
+                .zip(tool.flute)
+                .map(|(radius, base)| Cutter::cylinder(radius, base).thinner(BESIDE)),
+            holder: tool.holder.map(|[radius, base]| Cutter::cylinder(radius, base).thinner(BESIDE)),
         });
         Simulation {
             bodies: bodies.collect(),
@@ -195,14 +204,14 @@ impl Simulation {
 
     /// What must be asked before a move cuts: what is in its way.
     fn look(&mut self, from: [f64; 3], own: &Move) {
-        let (tool, body) = (&self.setup.tools[own.tool], &self.bodies[own.tool]);
+        let body = &self.bodies[own.tool];
         let low = lowest(from, own);
         let mut found = Vec::new();
         if own.way == Way::Rapid && low < f64::from(self.highest) {
-            found.extend(probe(&self.map, &tool.cutter, from, own).map(|hit| (AlarmKind::Rapid, hit)));
+            found.extend(probe(&self.map, &body.cutter, from, own).map(|hit| (AlarmKind::Rapid, hit)));
         }
         if let Some(fixtures) = &self.fixtures {
-            let parts = [Some(&tool.cutter), body.shank.as_ref(), body.holder.as_ref()];
+            let parts = [Some(&body.cutter), body.shank.as_ref(), body.holder.as_ref()];
             let hits = parts.into_iter().flatten().filter_map(|part| probe(fixtures, part, from, own));
             let worst = hits.max_by(|one, other| one.depth.total_cmp(&other.depth));
             found.extend(worst.map(|hit| (AlarmKind::Fixture, hit)));
@@ -222,7 +231,10 @@ impl Simulation {
         let from = self.before(self.moves.len() - 1);
         let depth = cut.removed.depth;
         let over = self.setup.tools[own.tool].flute.map_or(0.0, |flute| depth - flute as f32);
-        let faults = [(AlarmKind::Stopped, if own.turns { 0.0 } else { depth }), (AlarmKind::Flute, over)];
+        let faults = [
+            (AlarmKind::Stopped, if own.turns || own.way == Way::Rapid { 0.0 } else { depth }),
+            (AlarmKind::Flute, over),
+        ];
         for (kind, depth) in faults.into_iter().filter(|(_, depth)| *depth > TOUCH) {
             let place = self.where_cut(number, cut).unwrap_or(own.end);
             self.alarm(kind, own, number, Hit { place, depth });

@@ -32,7 +32,7 @@ pub(crate) fn sweep(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to:
         Way::Rapid | Way::Feed => straight(cells, cutter, from, to),
         Way::Arc { plane: [0, 1, 2], centre, sweep } if from[2] == to[2] => {
             for band in cutter.bands() {
-                level_arc(cells, band, from, *centre, *sweep);
+                level_arc(cells, band, [from, to], *centre, *sweep);
             }
         }
         Way::Arc { plane, centre, sweep } => {

@@ -118,6 +118,12 @@ impl Cutter {
         Ok(Cutter { bands, radius })
     }
 
+    /// The same with so much less radius.
+    pub(crate) fn thinner(&self, by: f64) -> Cutter {
+        let bands = self.bands.iter().map(|band| Band { outer: (band.outer - by).max(0.0), ..*band });
+        Cutter { bands: bands.collect(), radius: (self.radius - by).max(0.0) }
+    }
+
     /// A cylinder that begins so high above the tip: a shank, a holder.
     pub(crate) fn cylinder(radius: f64, base: f64) -> Cutter {
         Cutter { bands: vec![Band::flat(radius, base)], radius }
