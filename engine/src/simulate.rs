@@ -105,9 +105,10 @@ pub(crate) fn simulate(
     messages: &mut Buffer,
 ) -> Result<(Exit, Outputs), Problem> {
     *kept = None;
-    let stated: Option<BTreeMap<_, _>> = asked.tools.iter().map(|text| tooling::stated(text)).collect();
-    let stated = stated.ok_or_else(|| RequestFault::Tool(asked.tools.join(" ")))?;
+    let read = |text: &String| tooling::stated(text).map_err(|_| RequestFault::Tool(text.clone()));
+    let stated = asked.tools.iter().map(read).collect::<Result<BTreeMap<_, _>, _>>()?;
     let bench = Bench {
+        guessed: asked.stock.is_none(),
         stock: asked.stock.as_deref().map(|text| body(text, files)).transpose()?,
         fixtures: asked
             .fixtures

@@ -56,7 +56,11 @@ fn moves(dialect: &str, name: &str, text: &[u8]) -> Option<(Path, Source)> {
 
 fn cut_out(path: Path, stock: Option<Stock>) -> Result<CutProgram, Uncut> {
     let tools = tooling::tools(&path, &BTreeMap::new(), None).expect("tools that can be guessed");
-    cut(path, tools, Bench { stock, fixtures: Vec::new(), table: None, cells: CELLS })
+    cut(
+        path,
+        tools,
+        Bench { guessed: stock.is_none(), stock, fixtures: Vec::new(), table: None, cells: CELLS },
+    )
 }
 
 /// Every program of the corpus, and what it becomes for another control, cut out of one raw part.

@@ -278,6 +278,16 @@ fn alarms() {
     let found = kinds(&above);
     assert!(found[0].0 == AlarmKind::Table && (found[0].3 - 2.0).abs() < MICRON, "{found:?}");
 
+    // An arc of which the end is rounded to a thousandth of a millimetre, and straight up from there.
+    let mut rounded = Simulation::new(Setup { start: [53.788, 22.954, 5.0], ..setup(flat()) });
+    rounded.push(go(Way::Feed, [53.788, 22.954, -5.0]));
+    let [arm, end]: [[f64; 2]; 2] = [[3.788, -7.046], [1.051, 7.931]];
+    let sweep = (arm[0] * end[1] - arm[1] * end[0]).atan2(arm[0] * end[0] + arm[1] * end[1]);
+    let way = Way::Arc { plane: [0, 1, 2], centre: [50.0, 30.0], sweep };
+    rounded.push(go(way, [51.051, 37.931, -5.0]));
+    rounded.push(go(Way::Rapid, [51.051, 37.931, 5.0]));
+    assert_eq!(kinds(&rounded), []);
+
     let clamp = Stock::Block { low: [-10.0, 10.0, -20.0], high: [0.0, 20.0, 5.0] };
     let fixtures = vec![Fixture { name: "clamp".to_owned(), shape: clamp }];
     let mut held = Simulation::new(Setup { fixtures, table: Some(-20.5), ..setup(flat()) });

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use ncc_driver::simulate::described::Described;
 use ncc_driver::simulate::raw::{self, NoBody};
-use ncc_driver::simulate::tooling;
+use ncc_driver::simulate::tooling::{self, NoTool};
 use ncc_simulate::Look;
 
 use crate::args::common_args::{Reading, Setting, Verbosity};
@@ -64,7 +64,7 @@ pub struct Simulate {
         help_heading = "What is on the machine"
     )]
     pub table: Option<f64>,
-    /// A tool: number, shape (flat, ball, bull-nose, drill, chamfer, taper), diameter, and any of corner, angle,
+    /// A tool: number (`start` is the one in the spindle at the start), shape (flat, ball, bull-nose, drill, chamfer, taper), diameter, and any of corner, angle,
     /// end_diameter, flute, shank, holder, holder_from: `4=drill,6.8,angle=118` [default: the profile's; then what
     /// comments of CAM systems say; then a guess; may be repeated]
     #[arg(long, value_name = "TOOL", value_parser = tool, help_heading = "What is on the machine")]
@@ -197,7 +197,13 @@ fn body(text: &str) -> Result<raw::Stated, String> {
 }
 
 fn tool(text: &str) -> Result<(i64, Described), String> {
-    tooling::stated(text).ok_or_else(|| "write number=shape,diameter: 4=drill,6.8,angle=118".to_owned())
+    tooling::stated(text).map_err(|fault| match fault {
+        NoTool::Form => {
+            "write number=shape,diameter, and what the shape has: 4=drill,6.8,angle=118".to_owned()
+        }
+        NoTool::Incomplete => "a shank needs `flute`, a holder needs `holder_from`".to_owned(),
+        NoTool::Value => "a length or an angle is above 0 and at most 10000".to_owned(),
+    })
 }
 
 fn finite(text: &str) -> Result<f64, String> {
@@ -221,7 +227,10 @@ fn moment(text: &str) -> Result<Moment, String> {
     let seconds = match text.strip_suffix('s') {
         Some(seconds) => seconds.parse::<f64>().ok(),
         None => text.contains(':').then_some(text).and_then(|text| {
-            text.split(':').try_fold(0.0, |sum, part| Some(sum * 60.0 + part.parse::<f64>().ok()?))
+            text.split(':').try_fold(0.0, |sum, part| {
+                let part: f64 = part.parse().ok()?;
+                (part >= 0.0).then_some(sum * 60.0 + part)
+            })
         }),
     };
     seconds.filter(|seconds| seconds.is_finite() && *seconds >= 0.0).map(Moment::Time).ok_or_else(wrong)

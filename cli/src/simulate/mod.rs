@@ -56,7 +56,9 @@ pub(crate) fn run(
     }
     let Some(file) = &args.file else { return Ok(Exit::Usage) };
     let outputs = outputs(args)?;
+    guard(args, file)?;
     let bench = Bench {
+        guessed: args.stock.is_none(),
         stock: args.stock.as_ref().map(body).transpose()?,
         fixtures: args.fixture.iter().map(fixture).collect::<Result<_, _>>()?,
         table: args.table,
@@ -64,11 +66,6 @@ pub(crate) fn run(
     };
     let should = args.against.as_deref().map(triangles).transpose()?;
     let Some(mut done) = carry_out(args, file, bench.clone(), known, err)? else { return Ok(Exit::Refused) };
-    for (_, destination) in &outputs {
-        if let Destination::File(name) = destination {
-            done.source.guard(Some(name))?;
-        }
-    }
     let other = match &args.compare {
         None => None,
         Some(other) => {
@@ -95,6 +92,34 @@ pub(crate) fn run(
         destination.release(&mut output)?;
     }
     account(args, done, other, between, err)
+}
+
+/// Files that are read are not written over, and none is written twice.
+fn guard(args: &Simulate, file: &Path) -> Result<(), Problem> {
+    let bodies = args.stock.iter().chain(&args.fixture).filter_map(|body| match body {
+        raw::Stated::File(name) => Some(Path::new(name)),
+        raw::Stated::Shape(_) => None,
+    });
+    let programs = [Some(file), args.compare.as_deref(), args.against.as_deref()].into_iter().flatten();
+    let read: Vec<&Path> = programs.chain(bodies).collect();
+    let written: Vec<&Path> =
+        [&args.png, &args.svg, &args.stl].into_iter().flatten().map(|name| name.as_path()).collect();
+    for (n, own) in written.iter().enumerate().filter(|(_, own)| **own != Path::new("-")) {
+        let is_own = |other: &&Path| same_file::is_same_file(own, other).unwrap_or(false);
+        if let Some(other) = read.iter().find(|other| is_own(other)) {
+            return Err(Problem::usage(
+                format!("{} would be written over {}", own.display(), other.display()),
+                "name another file for the output",
+            ));
+        }
+        if written[..n].iter().any(|other| other == own || is_own(other)) {
+            return Err(Problem::usage(
+                format!("{} would be written twice", own.display()),
+                "name a file for each output",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// What is written to a file.
@@ -142,12 +167,12 @@ fn fixture(stated: &raw::Stated) -> Result<Fixture, Problem> {
 fn triangles(path: &Path) -> Result<Stock, Problem> {
     let shown = path.display().to_string();
     let bytes = fs::read(path).map_err(|e| Problem::file("read", &shown, &e))?;
-    let read = parts::read_stl(&bytes).map_err(|e| Problem::file("read", &shown, &e))?;
-    raw::body(read).ok_or_else(|| Problem {
+    let no_body = || Problem {
         exit: Exit::File,
-        message: format!("{shown} is no body"),
+        message: format!("{shown} is no body: no STL, cut off, or without a volume"),
         help: vec!["it needs triangles around a volume, in mm".to_owned()],
-    })
+    };
+    raw::body(parts::read_stl(&bytes).map_err(|_| no_body())?).ok_or_else(no_body)
 }
 
 /// Executes a program and cuts it; `None` where it was refused, which has been told.
@@ -180,6 +205,14 @@ fn carry_out(
     let mut assumed = time::assumptions(&shop, &plan, &course);
     assumed.extend(told::unplaced(&path, &plan.tables));
     let stated: BTreeMap<_, _> = args.tool.iter().cloned().collect();
+    if stated.len() < args.tool.len() {
+        return Err(Problem::usage("a tool is stated twice", "state each tool once"));
+    }
+    let unused: Vec<i64> = tooling::unused(&path, &stated).collect();
+    // The program that is compared may be one with fewer tools.
+    if !unused.is_empty() && !compared {
+        return Err(told::no_tool(&path, &unused));
+    }
     let tools =
         tooling::tools(&path, &stated, shop.profile.as_ref()).map_err(|fault| told::no_cutter(&fault))?;
     let dialect = job.from.dialect.id.clone();

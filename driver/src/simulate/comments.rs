@@ -72,10 +72,49 @@ pub fn read(comment: &str) -> Option<(i64, Described)> {
     Some((tool, Described { shape, diameter: Some(diameter), ..Described::default() }))
 }
 
-/// What a heading says of the tool that is put in behind it, in mm: a shape, and a number with `mm`.
+/// Words of headings that name a tool, whole; the first that a heading has counts.
+const HEADINGS: &[(&str, ShapeName)] = &[
+    ("BALL", ShapeName::Ball),
+    ("ESFERICA", ShapeName::Ball),
+    ("ESFÉRICA", ShapeName::Ball),
+    ("KUGELFRÄSER", ShapeName::Ball),
+    ("DRILL", ShapeName::Drill),
+    ("BROCA", ShapeName::Drill),
+    ("FURACAO", ShapeName::Drill),
+    ("FURAÇÃO", ShapeName::Drill),
+    ("BOHRER", ShapeName::Drill),
+    ("MILL", ShapeName::Flat),
+    ("ENDMILL", ShapeName::Flat),
+    ("FRESA", ShapeName::Flat),
+    ("FRAESER", ShapeName::Flat),
+    ("FRÄSER", ShapeName::Flat),
+];
+
+/// Words of headings that give a number another meaning than that of a diameter.
+const NO_DIAMETER: &[&str] = &[
+    "DEEP",
+    "DEPTH",
+    "LONG",
+    "LENGTH",
+    "WIDE",
+    "THICK",
+    "STOCK",
+    "BLOCK",
+    "HOLES",
+    "PROFUNDIDADE",
+    "TIEF",
+    "LANG",
+];
+
+/// What a heading says of the tool that is put in behind it, in mm: a shape, and a number with `mm`. It may be about the
+/// part all the same, so that it is no more than a guess.
 pub fn heading(comment: &str) -> Option<Described> {
     let text = comment.to_uppercase();
-    let name = SHAPES.iter().find(|(word, _)| text.contains(word)).map(|(_, shape)| *shape)?;
+    let words: Vec<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '.').collect();
+    if NO_DIAMETER.iter().any(|word| words.contains(word)) {
+        return None;
+    }
+    let name = HEADINGS.iter().find(|(word, _)| words.contains(word)).map(|(_, shape)| *shape)?;
     let before = |at: usize| {
         let text = text[..at].trim_end();
         let digits = text.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.' || c == ',').len();
@@ -109,9 +148,18 @@ fn value(text: &str, name: &str) -> Option<f64> {
         // `CORRECTION D=` names no other thing than `D=`; `ID=` does.
         !text[..*at].ends_with(|c: char| c.is_ascii_alphanumeric())
     })?;
-    let rest = text[at + name.len()..].trim_start_matches(['.', '=', ' ', ':', '-']);
-    let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
-    rest[..end].trim_end_matches('.').parse().ok()
+    let rest = &text[at + name.len()..];
+    // The point behind `DIA` is of the word, one before a digit of the number.
+    let point = rest.strip_prefix('.').filter(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()));
+    let rest = point.unwrap_or(rest).trim_start_matches(['=', ' ', ':', '-']);
+    let mut end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+    // A comma with digits on both sides is a point in many countries.
+    let behind = rest[end..].strip_prefix(',').unwrap_or_default();
+    let digits = behind.len() - behind.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    if end > 0 && digits > 0 && !rest[..end].contains('.') {
+        end += 1 + digits;
+    }
+    rest[..end].replace(',', ".").trim_end_matches('.').parse().ok()
 }
 
 #[cfg(test)]
@@ -160,6 +208,9 @@ mod tests {
                 0.5,
                 Some((ShapeName::Flat, None, None)),
             ),
+            ("T10 D=.5 CR=0. CENTER CUTTING END MILL", 10, 0.5, Some((ShapeName::Flat, None, None))),
+            ("T11 D=8,5 CR=0,5 - end mill", 11, 8.5, Some((ShapeName::BullNose, Some(0.5), None))),
+            ("T12 D=10, CR=0, drill", 12, 10.0, Some((ShapeName::Drill, None, None))),
             ("TOOL - 2 DIA. OFF. - 2 LEN. - 2 DIA. - 10.", 2, 10.0, None),
         ];
         for (text, tool, diameter, own) in cases {

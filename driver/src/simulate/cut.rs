@@ -10,8 +10,10 @@ use super::tooling::Fitted;
 /// What is set up on the machine.
 #[derive(Clone, Debug)]
 pub struct Bench {
-    /// The raw part, where it is stated.
+    /// The raw part, where it is known.
     pub stock: Option<Stock>,
+    /// Whether it is a guess: it always is where it is not known.
+    pub guessed: bool,
     /// What holds it.
     pub fixtures: Vec<Fixture>,
     /// Z of the table, mm.
@@ -61,7 +63,7 @@ pub fn cut(mut path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgra
     if let Some((why, span)) = path.unsimulated {
         return Err(Uncut::Unsimulated(why, span));
     }
-    let guessed = bench.stock.is_none();
+    let guessed = bench.guessed || bench.stock.is_none();
     let stock = bench.stock.or_else(|| raw::guess(&path, &tools)).ok_or(Uncut::NoCut)?;
     let mut simulation = Simulation::new(Setup {
         stock,
@@ -108,11 +110,28 @@ impl CutProgram {
         self.simulation.moves().partition_point(|own| own.time <= time)
     }
 
-    /// How many moves are over when a line of the source has been carried out for the first time.
+    /// How many moves are over when a line of the source has been carried out for the first time: of one without a move,
+    /// before the next line that has one.
     pub fn moves_behind_line(&self, line: u32) -> usize {
         let moves = self.simulation.moves();
-        let first = moves.iter().position(|own| own.line >= line).unwrap_or(moves.len());
+        let Some(first) = moves.iter().position(|own| own.line == line) else {
+            let next = moves.iter().map(|own| own.line).filter(|own| *own > line).min();
+            return next
+                .and_then(|next| moves.iter().position(|own| own.line == next))
+                .unwrap_or(moves.len());
+        };
         let end = moves[first..].iter().position(|own| own.line != line);
         first + end.unwrap_or(moves.len() - first)
+    }
+
+    /// The tools that cut with less than two cells in radius, which a grid does not show well, and how many cells there
+    /// would have to be along the longer side.
+    pub fn coarse(&self) -> Option<(Vec<i64>, usize)> {
+        let grid = self.simulation.map().grid;
+        let radius = |own: &Fitted| own.tool.cutter.radius();
+        let thin: Vec<&Fitted> = self.tools.iter().filter(|own| radius(own) < 2.0 * grid.cell).collect();
+        let least = thin.iter().map(|own| radius(own)).reduce(f64::min)?;
+        let side = grid.cell * grid.cells[0].max(grid.cells[1]) as f64;
+        Some((thin.iter().map(|own| own.tool.number).collect(), (2.0 * side / least).ceil() as usize))
     }
 }

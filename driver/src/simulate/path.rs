@@ -44,6 +44,17 @@ pub struct Used {
     pub threads: bool,
 }
 
+/// What a comment says of a tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    /// The tool, in mm.
+    pub described: Described,
+    /// The line of the comment.
+    pub line: u32,
+    /// Whether it is the heading of a tool change, which names no tool.
+    pub heading: bool,
+}
+
 /// The moves of a program.
 #[derive(Clone, Debug, Default)]
 pub struct Path {
@@ -61,8 +72,8 @@ pub struct Path {
     pub spans: Vec<Span>,
     /// The tools, in the order in which they come.
     pub tools: Vec<Used>,
-    /// What comments say of tools, by their numbers, in mm, and the line.
-    pub described: BTreeMap<i64, (Described, u32)>,
+    /// What comments say of tools, by their numbers.
+    pub remarks: BTreeMap<i64, Remark>,
     /// The work offsets in which it moves.
     pub offsets: Vec<u16>,
     /// Seconds on the clock at the end.
@@ -140,8 +151,10 @@ impl<'t> Recorder<'t> {
             }
         }
         let unit = if inch { 25.4 } else { 1.0 };
-        let said = said.into_iter().map(|(tool, (own, line))| (tool, (own.times(unit), line)));
-        path.described.extend(said);
+        let said = said
+            .into_iter()
+            .map(|(tool, (own, line))| (tool, Remark { described: own.times(unit), line, heading: false }));
+        path.remarks.extend(said);
         path
     }
 
@@ -215,9 +228,10 @@ impl Sink for Recorder<'_> {
             }
         }
         if event.kind == Kind::ToolChange
-            && let Some(heading) = self.heading.take()
+            && let Some((described, line)) = self.heading.take()
         {
-            self.path.described.entry(event.state.tool).or_insert(heading);
+            let own = Remark { described, line, heading: true };
+            self.path.remarks.entry(event.state.tool).or_insert(own);
         }
         let Some(movement) = event.kind.moves() else { return Ok(()) };
         let way = path(event, &act.from);

@@ -8,7 +8,9 @@
 //!
 //! Coordinates are those of the work offset in which the program cuts first, in mm.
 
-use ncc_simulate::{Stock, Triangle, Way};
+use std::collections::BTreeSet;
+
+use ncc_simulate::{HeightMap, Move, Stock, Triangle, Way};
 
 use super::path::Path;
 use super::tooling::Fitted;
@@ -93,65 +95,103 @@ fn number(text: &str) -> Result<f64, NoBody> {
     if value.is_finite() && value.abs() <= FARTHEST { Ok(value) } else { Err(NoBody::Range) }
 }
 
-/// A body of triangles, if it has any with finite corners.
+/// A body of triangles, if it has any with finite corners, and an upper side.
 pub fn body(triangles: Vec<Triangle>) -> Option<Stock> {
     let finite =
         triangles.iter().flatten().flatten().all(|at| at.is_finite() && f64::from(at.abs()) <= FARTHEST);
     let stock = Stock::Body(triangles);
     let [low, high] = stock.extent();
-    (finite && low[0] < high[0] && low[1] < high[1] && low[2] < high[2]).then_some(stock)
+    let is_body = finite && low[0] < high[0] && low[1] < high[1] && low[2] < high[2];
+    // Walls without a top are none.
+    (is_body && stock.map(256).highest() > HeightMap::NOTHING).then_some(stock)
+}
+
+/// Places of an arc: as many as a box needs.
+fn places(from: [f64; 3], own: &Move) -> Vec<[f64; 3]> {
+    let Way::Arc { plane, centre, sweep } = own.way else { return vec![from, own.end] };
+    let [f, s, n] = plane.map(usize::from);
+    let arm = [from[f] - centre[0], from[s] - centre[1]];
+    let count = (sweep.abs() / std::f64::consts::TAU * 128.0).ceil().clamp(1.0, 4096.0) as usize;
+    let mut all = vec![from];
+    for i in 1..count {
+        let part = i as f64 / count as f64;
+        let (sin, cos) = (sweep * part).sin_cos();
+        let mut at = from;
+        at[f] = centre[0] + arm[0] * cos - arm[1] * sin;
+        at[s] = centre[1] + arm[0] * sin + arm[1] * cos;
+        at[n] += part * (own.end[n] - from[n]);
+        all.push(at);
+    }
+    all.push(own.end);
+    all
+}
+
+/// A height in thousandths of a millimetre.
+fn level(z: f64) -> i64 {
+    (z * 1000.0).round() as i64
 }
 
 /// The raw part that the moves at feed need, and a margin around it.
 ///
 /// Its top is program zero where the program cuts below it and not across above it: so programs are mostly written. Else it
-/// is the highest cut across. `None` where nothing is cut.
+/// is the highest cut across. Moves at feed at a height to which the tool is lifted are none: some posts write their rapids
+/// so. Of a top above zero, rapids across are not below it. `None` where nothing is cut.
 pub fn guess(path: &Path, tools: &[Fitted]) -> Option<Stock> {
+    let moves = || {
+        let starts = std::iter::once(path.start).chain(path.moves.iter().map(|own| own.end));
+        starts.zip(&path.moves)
+    };
+    let upright = |from: &[f64; 3], own: &Move| from[..2] == own.end[..2];
+    let lifted: BTreeSet<i64> = moves()
+        .filter(|(from, own)| upright(from, own) && own.end[2] > from[2])
+        .map(|(_, own)| level(own.end[2]))
+        .collect();
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let mut across = f64::NEG_INFINITY;
-    let mut from = path.start;
-    for own in &path.moves {
-        let radius = tools[own.tool].tool.cutter.radius();
-        let reach = match own.way {
-            Way::Away | Way::Rapid => {
-                from = own.end;
+    let (mut across, mut rapid) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (from, own) in moves() {
+        match own.way {
+            Way::Away => continue,
+            Way::Rapid => {
+                if !upright(&from, own) {
+                    rapid = rapid.min(from[2].max(own.end[2]));
+                }
                 continue;
             }
-            Way::Feed => 0.0,
-            // An arc stays within its circle.
-            Way::Arc { plane, centre, .. } => {
-                let [f, s, _] = plane.map(usize::from);
-                (from[f] - centre[0]).hypot(from[s] - centre[1])
-            }
-        };
-        let mut boxed = [from, own.end];
-        if let Way::Arc { plane, centre, sweep } = own.way
-            && sweep.abs() > std::f64::consts::FRAC_PI_2
-        {
-            for n in 0..2 {
-                let axis = usize::from(plane[n]);
-                boxed[0][axis] = boxed[0][axis].min(centre[n] - reach);
-                boxed[1][axis] = boxed[1][axis].max(centre[n] + reach);
-            }
+            Way::Feed | Way::Arc { .. } => {}
         }
-        for at in boxed {
+        let radius = tools[own.tool].tool.cutter.radius();
+        let all = places(from, own);
+        let level_at = level(from[2].min(own.end[2]));
+        let lifted = lifted.contains(&level_at) && all.iter().all(|at| level(at[2]) >= level_at);
+        if lifted && !upright(&from, own) {
+            // The way to the next cut.
+            continue;
+        }
+        for at in &all {
             for axis in 0..2 {
                 low[axis] = low[axis].min(at[axis] - radius);
                 high[axis] = high[axis].max(at[axis] + radius);
             }
             low[2] = low[2].min(at[2]);
         }
-        if from[..2] != own.end[..2] {
-            across = across.max(from[2].min(own.end[2]));
+        if !upright(&from, own) {
+            // A ridge is as high as the arc over it.
+            let top = match own.way {
+                Way::Arc { .. } => all.iter().map(|at| at[2]).fold(f64::NEG_INFINITY, f64::max),
+                _ => from[2].min(own.end[2]),
+            };
+            across = across.max(top);
         }
-        from = own.end;
     }
     if !low[2].is_finite() {
         return None;
     }
-    high[2] = if low[2] < 0.0 { across.max(0.0) } else { across };
-    // All that is cut may be holes above zero.
-    high[2] = high[2].max(low[2] + MARGIN);
+    // A rapid below zero may be the very fault that is looked for.
+    high[2] = if low[2] < 0.0 { across.min(rapid).max(0.0) } else { across };
+    if high[2] <= low[2] {
+        // All that is cut are holes above zero, or one level at zero.
+        high[2] = low[2] + MARGIN;
+    }
     for axis in 0..2 {
         low[axis] -= MARGIN;
         high[axis] += MARGIN;

@@ -213,6 +213,14 @@ pub fn no_cutter(fault: &NoCutter) -> Problem {
     Problem::of(Exit::Usage, &form.text("tool", number), Some(vec![help]))
 }
 
+/// Stated tools that a program does not have, as a problem of the call.
+pub fn no_tool(path: &Path, unused: &[i64]) -> Problem {
+    let names = |all: &mut dyn Iterator<Item = i64>| all.map(tool).collect::<Vec<_>>().join(", ");
+    let unused = names(&mut unused.iter().copied());
+    let used = names(&mut path.tools.iter().map(|own| own.number));
+    Problem::of(Exit::Usage, &words("no-tool").text("unused", unused).text("used", used), None)
+}
+
 /// A raw part in words.
 fn raw(stock: &Stock) -> String {
     let [low, high] = stock.extent();
@@ -316,6 +324,14 @@ pub fn write_account(
         .text("rows", grid.cells[1].to_string())
         .text("cell", decimal(grid.cell));
     rows.push((words("cells").headline(), cells.headline()));
+    if let Some((thin, cells)) = cut.coarse() {
+        let names: Vec<_> = thin.into_iter().map(tool).collect();
+        let coarse = words("coarse").text("tools", names.join(", ")).text("cells", cells.to_string());
+        rows.push((words("coarse-name").headline(), coarse.headline()));
+    }
+    if cut.volume() == 0.0 {
+        rows.push((words("untouched-name").headline(), words("untouched").headline()));
+    }
     for (name, text) in rows {
         writeln!(out, "  {name:<12} {text}")?;
     }

@@ -71,16 +71,27 @@ pub fn tools(
     path.tools.iter().map(|used| fit(used, path, stated.get(&used.number), profile)).collect()
 }
 
+/// Stated tools that a program does not have.
+pub fn unused<'s>(path: &'s Path, stated: &'s BTreeMap<i64, Described>) -> impl Iterator<Item = i64> + 's {
+    stated.keys().copied().filter(|number| path.tools.iter().all(|used| used.number != *number))
+}
+
 fn fit(
     used: &Used,
     path: &Path,
     stated: Option<&Described>,
     profile: Option<&Profile>,
 ) -> Result<Fitted, NoCutter> {
+    let only = path.tools.len() == 1 && path.remarks.len() == 1 && used.number < 0;
+    let remark = match only {
+        // A program of one tool need not name it by a number.
+        true => path.remarks.values().next(),
+        false => path.remarks.get(&used.number),
+    };
     let rows = [
         stated.cloned().map(|own| (own, Known::Stated)),
         profile.and_then(|profile| of_profile(profile, used.number)).map(|own| (own, Known::Profile)),
-        path.described.get(&used.number).map(|(own, line)| (own.clone(), Known::Comment(*line))),
+        remark.map(|own| (own.described.clone(), Known::Comment(own.line))),
     ];
     let rows: Vec<_> = rows.into_iter().flatten().collect();
     let known = rows.iter().find(|(own, _)| own.diameter.is_some()).map_or(Known::Guess, |(_, known)| *known);
@@ -95,7 +106,9 @@ fn fit(
     let (shape, sure) = shape(&shaped, diameter);
     let no_cutter = |fault| NoCutter { number: used.number, fault };
     let cutter = Cutter::new(&shape, diameter, own.flute.unwrap_or(LONG)).map_err(no_cutter)?;
-    let shape_guessed = said.is_none() || !sure;
+    // A heading by hand may be about the part.
+    let by_heading = matches!(known, Known::Comment(_)) && remark.is_some_and(|own| own.heading);
+    let shape_guessed = said.is_none() || !sure || by_heading;
     Ok(Fitted {
         tool: Tool {
             number: used.number,
@@ -156,41 +169,73 @@ fn of_profile(profile: &Profile, number: i64) -> Option<Described> {
     })
 }
 
-/// Reads how a user states a tool: its number, its shape, its diameter in mm, and what a profile's row may have.
+/// Why a text states no tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoTool {
+    /// It is not of the form.
+    Form,
+    /// A length that means nothing without another one: a shank without flutes, a holder without a place.
+    Incomplete,
+    /// A value that no tool has.
+    Value,
+}
+
+/// The largest length or angle of a tool, mm or degrees.
+const LARGEST: f64 = 10_000.0;
+
+/// Reads how a user states a tool: its number or `start`, its shape, its diameter in mm, and what a profile's row may have.
 ///
 /// ```text
 /// 4=drill,10,angle=118,flute=60
 /// ```
-pub fn stated(text: &str) -> Option<(i64, Described)> {
-    let (number, rest) = text.split_once('=')?;
-    let number = number.trim().trim_start_matches(['T', 't']).parse().ok()?;
+///
+/// # Errors
+/// As [`NoTool`] says.
+pub fn stated(text: &str) -> Result<(i64, Described), NoTool> {
+    let (number, rest) = text.split_once('=').ok_or(NoTool::Form)?;
+    let number = match number.trim() {
+        "start" => -1,
+        number => {
+            let number: u32 = number.trim_start_matches(['T', 't']).parse().map_err(|_| NoTool::Form)?;
+            i64::from(number)
+        }
+    };
     let mut parts = rest.split(',').map(str::trim);
-    let name = match parts.next()? {
+    let name = match parts.next().unwrap_or_default() {
         "flat" => ShapeName::Flat,
         "ball" => ShapeName::Ball,
         "bull-nose" => ShapeName::BullNose,
         "drill" => ShapeName::Drill,
         "chamfer" => ShapeName::Chamfer,
         "taper" => ShapeName::Taper,
-        _ => return None,
+        _ => return Err(NoTool::Form),
     };
-    let above_zero = |text: &str| text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    let above_zero = |text: &str| {
+        let value: f64 = text.parse().map_err(|_| NoTool::Form)?;
+        if value > 0.0 && value <= LARGEST { Ok(value) } else { Err(NoTool::Value) }
+    };
     let mut shaped = Shaped { name, corner: None, angle: None, end_diameter: None };
-    let mut own = Described { diameter: Some(above_zero(parts.next()?)?), ..Described::default() };
+    let diameter = above_zero(parts.next().ok_or(NoTool::Form)?)?;
+    let mut own = Described { diameter: Some(diameter), ..Described::default() };
     for part in parts {
-        let (key, value) = part.split_once('=')?;
-        let place = match key.trim() {
-            "corner" => &mut shaped.corner,
-            "angle" => &mut shaped.angle,
-            "end_diameter" => &mut shaped.end_diameter,
-            "flute" => &mut own.flute,
-            "shank" => &mut own.shank,
-            "holder" => &mut own.holder,
-            "holder_from" => &mut own.holder_from,
-            _ => return None,
+        let (key, value) = part.split_once('=').ok_or(NoTool::Form)?;
+        // What a shape does not have says nothing of it.
+        let place = match (key.trim(), name) {
+            ("corner", ShapeName::BullNose | ShapeName::Taper) => &mut shaped.corner,
+            ("angle", ShapeName::Drill | ShapeName::Chamfer | ShapeName::Taper) => &mut shaped.angle,
+            ("end_diameter", ShapeName::Chamfer) => &mut shaped.end_diameter,
+            ("flute", _) => &mut own.flute,
+            ("shank", _) => &mut own.shank,
+            ("holder", _) => &mut own.holder,
+            ("holder_from", _) => &mut own.holder_from,
+            _ => return Err(NoTool::Form),
         };
-        *place = Some(above_zero(value.trim())?);
+        if place.replace(above_zero(value.trim())?).is_some() {
+            return Err(NoTool::Form);
+        }
     }
+    let whole =
+        (own.shank.is_none() || own.flute.is_some()) && own.holder.is_some() == own.holder_from.is_some();
     own.shape = Some(shaped);
-    Some((number, own))
+    if whole { Ok((number, own)) } else { Err(NoTool::Incomplete) }
 }
