@@ -106,7 +106,7 @@ const NO_DIAMETER: &[&str] = &[
     "LANG",
 ];
 
-/// What a heading says of the tool that is put in behind it, in mm: a shape, and a number with `mm`. It may be about the
+/// What a heading says of the tool that is put in behind it, in mm: what it is, and a number with `mm`. It may be about the
 /// part all the same, so that it is no more than a guess.
 pub fn heading(comment: &str) -> Option<Described> {
     let text = comment.to_uppercase();
@@ -114,19 +114,20 @@ pub fn heading(comment: &str) -> Option<Described> {
     if NO_DIAMETER.iter().any(|word| words.contains(word)) {
         return None;
     }
-    let name = HEADINGS.iter().find(|(word, _)| words.contains(word)).map(|(_, shape)| *shape)?;
+    let name = HEADINGS.iter().find(|(word, _)| words.contains(word)).map(|(_, shape)| *shape);
+    // A diameter alone is one of a tool where it is said of one.
+    let of_tool = ["BIT", "CUTTER", "TOOL"].iter().any(|word| words.contains(word));
+    if name.is_none() && !of_tool {
+        return None;
+    }
     let before = |at: usize| {
         let text = text[..at].trim_end();
         let digits = text.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.' || c == ',').len();
         text[digits..].replace(',', ".").parse().ok()
     };
     let diameter: f64 = text.match_indices("MM").find_map(|(at, _)| before(at))?;
-    let shape = Shaped { name, corner: None, angle: None, end_diameter: None };
-    (diameter > 0.0).then(|| Described {
-        shape: Some(shape),
-        diameter: Some(diameter),
-        ..Described::default()
-    })
+    let shape = name.map(|name| Shaped { name, corner: None, angle: None, end_diameter: None });
+    (diameter > 0.0).then(|| Described { shape, diameter: Some(diameter), ..Described::default() })
 }
 
 /// The number behind the first `T` that begins a word: `T4`, `T04`, `TOOL - 4`, `T 4`.
@@ -215,6 +216,31 @@ mod tests {
         ];
         for (text, tool, diameter, own) in cases {
             assert_eq!(shape(text), Some((tool, diameter, own)), "{text}");
+        }
+        let headings = [
+            ("REBAIXO FRESA 12mm", Some((ShapeName::Flat, 12.0))),
+            ("FURAÇÃO 3mm :", Some((ShapeName::Drill, 3.0))),
+            ("Bohrer 6,8 mm", Some((ShapeName::Drill, 6.8))),
+            ("FACEAMENTO:", None),
+            ("FRESA", None),
+            ("12mm", None),
+            ("MILL 0mm", None),
+            ("SLOT MILLED 40MM LONG", None),
+            ("ALL DIMENSIONS IN MILLIMETERS, STOCK 25MM", None),
+            ("POCKET 12MM DEEP WITH 1/4 ENDMILL", None),
+            ("ZERO AT CENTRE OF THE 50MM BLOCK", None),
+            ("DRILL 4 HOLES 30MM DEEP, D=8.5", None),
+            ("Bohrung 8mm", None),
+        ];
+        for (text, own) in headings {
+            let read = heading(text).map(|own| (own.shape.map(|shape| shape.name), own.diameter));
+            assert_eq!(read, own.map(|(name, diameter)| (Some(name), Some(diameter))), "{text}");
+        }
+        for (text, diameter) in
+            [("Bit diameter: 3.0mm", 3.0), ("Cutter: 31.75mm", 31.75), ("TOOL DIAMETER: 2.0 mm", 2.0)]
+        {
+            let own = Described { diameter: Some(diameter), ..Described::default() };
+            assert_eq!(heading(text), Some(own), "{text}");
         }
         for text in
             ["", "T", "TOOL CHANGE", "T1 ROUGHING", "D=10.", "DIAMETER 10", "T4 D=", "T4 D=0.", "TEXT D=5"]

@@ -242,7 +242,14 @@ impl Sink for Recorder<'_> {
         if !self.path.offsets.contains(&said.tip.offset) {
             self.path.offsets.push(said.tip.offset);
         }
-        self.heading = None;
+        let heading = self.heading.take();
+        if self.path.tools.is_empty()
+            && let Some((described, line)) = heading
+        {
+            // Of the tool that is there at the start.
+            let own = Remark { described, line, heading: true };
+            self.path.remarks.entry(event.state.tool).or_insert(own);
+        }
         let tool = self.tool(event.state.tool);
         let feeds = movement != Movement::Rapid && !matches!(event.kind, Kind::Probe { .. });
         if feeds {
