@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use wide::{CmpGt, CmpLt, f32x4};
+use wide::{CmpGt, CmpLe, CmpLt, f32x4};
 
 use crate::map::Grid;
 
@@ -46,6 +46,24 @@ impl Sloped {
     #[inline(always)]
     pub(super) fn half(&self, d: f32x4) -> f32x4 {
         not_below_zero(f32x4::splat(self.outer) - d * d).sqrt()
+    }
+}
+
+/// A surface along a line, where a tool of that radius comes.
+pub(super) struct Within<W> {
+    pub(super) way: W,
+    pub(super) at: Across,
+    /// Square of the radius.
+    pub(super) outer: f32,
+}
+
+impl<W: Surface> Surface for Within<W> {
+    #[inline(always)]
+    fn at(&self, i: f32x4) -> f32x4 {
+        let (s, d) = self.at.of(i);
+        let e = s - self.at.clamped(s);
+        let inside = (d * d + e * e).cmp_le(f32x4::splat(self.outer));
+        inside.blend(self.way.at(i), f32x4::splat(f32::INFINITY))
     }
 }
 

@@ -15,7 +15,7 @@ use crate::level_arc::level_arc;
 use crate::moves::Way;
 use crate::surface::{
     Across, Around, Ball, BallAt, Cells, Cone, ConeAt, Flat, Level, LevelRound, Round, RoundAt, Sloped,
-    SlopedRound, Surface,
+    SlopedRound, Surface, Within,
 };
 use crate::tool::Cutter;
 
@@ -182,6 +182,15 @@ impl Line {
             let (s, d) = ((off[0] * ux + off[1] * uy) as f32, (off[1] * ux - off[0] * uy) as f32);
             Across { s, d, ds, dd, length }
         };
+        if columns.len() <= NARROW {
+            // Asking of each cell is less work than asking where the cells of each row begin.
+            let outer = (radius * radius) as f32;
+            for row in rows {
+                let at = across(row, columns.start);
+                cells.row(row, columns.clone(), &Within { way: way(at), at, outer });
+            }
+            return;
+        }
         let reach = Reach::new(self, radius);
         for row in rows {
             let y = grid.centre(1, row);
@@ -253,6 +262,9 @@ impl Line {
         }
     }
 }
+
+/// A box around a line with so few columns is worked on as a whole.
+const NARROW: usize = 12;
 
 /// Rows with so few cells are worked on as a whole.
 const SHORT: usize = 8;
