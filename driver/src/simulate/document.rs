@@ -121,9 +121,14 @@ struct Place {
     by: f64,
 }
 
-/// A length or a volume to a millionth: computers differ in what is finer.
+/// A length to a millionth: computers differ in what is finer.
 fn micro(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
+}
+
+/// A volume to a thousandth: it is a sum in single precision.
+fn milli(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
 }
 
 /// The name of a shape, as profiles have it.
@@ -165,7 +170,7 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
             known,
             line,
             shape_guessed: own.shape_guessed,
-            removed: micro(worked.volume),
+            removed: milli(worked.volume),
             cutting: micro(worked.cutting),
             depth: micro(worked.depth),
         }
@@ -207,7 +212,7 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
             cell: micro(grid.cell),
         },
         tools: tools.collect(),
-        removed: micro(cut.volume()),
+        removed: milli(cut.volume()),
         alarms: alarms.collect(),
         assumed: about.assumed,
     }
@@ -229,8 +234,8 @@ pub fn write(
         tool: Ncc { name: "ncc", version: env!("CARGO_PKG_VERSION") },
         programs: programs.iter().map(|(about, cut, told)| program(*about, cut, told)).collect(),
         between: between.map(|(between, tolerance)| Difference {
-            more: micro(between.more),
-            less: micro(between.less),
+            more: milli(between.more),
+            less: milli(between.less),
             above: place(between.highest),
             below: place(between.deepest),
             tolerance,
