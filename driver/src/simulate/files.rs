@@ -43,7 +43,7 @@ pub fn png(picture: &Picture) -> io::Result<Vec<u8>> {
 /// A sheet: the part from above and from a corner, its tools, and where there are alarms.
 ///
 /// # Errors
-/// As of [`png`].
+/// As of [`png()`].
 pub fn svg(cut: &CutProgram, title: &str) -> io::Result<String> {
     let [plan, corner] = [Look::Plan, Look::Corner].map(|look| picture(cut, look, 900));
     let grid = cut.simulation.map().grid;
