@@ -29,6 +29,7 @@ pub fn code(code: &str) -> Option<u16> {
 mod tests {
     use super::*;
     use crate::render::messages::files::Files;
+    use crate::simulate::told;
     use ncc_check::Rule;
     use ncc_frontends::recognise;
     use ncc_ir::diag::Fault;
@@ -42,6 +43,7 @@ mod tests {
             .chain(Wrong::CODES)
             .chain(Wrong::PROJECT_CODES)
             .chain(Rule::CODES)
+            .chain(told::CODES)
             .chain(&[recognise::CODE])
         {
             assert!(codes.contains(code), "NC{code:04} has no page");
@@ -52,6 +54,7 @@ mod tests {
                     || Wrong::CODES.contains(code)
                     || Wrong::PROJECT_CODES.contains(code)
                     || Rule::CODES.contains(code)
+                    || told::CODES.contains(code)
                     || *code == recognise::CODE,
                 "NC{code:04} is no code any more"
             );

@@ -22,6 +22,12 @@ use crate::render::{Place, Told};
 use crate::source::Source;
 use crate::time::duration;
 
+/// The codes of alarms, and of a cut that is not simulated.
+pub const CODES: &[u16] = &[901, 902, 903, 904, 905, 906, 907, NOT_SIMULATED];
+
+/// The code of a cut that is not simulated.
+const NOT_SIMULATED: u16 = 908;
+
 /// The code of a kind of alarm.
 pub fn code(kind: AlarmKind) -> u16 {
     match kind {
@@ -187,8 +193,8 @@ pub fn write_refusal(
         return Ok(Some(Problem::of(Exit::Refused, &message, None)));
     };
     let message = match why {
-        Unsimulated::Rotary => Message::new(908),
-        Unsimulated::Tilted => Message::new(908).form("tilted"),
+        Unsimulated::Rotary => Message::new(NOT_SIMULATED),
+        Unsimulated::Tilted => Message::new(NOT_SIMULATED).form("tilted"),
     };
     let mut lines = Lines::find(&mut source.file, vec![span.start])?;
     lines.own_numbers(source.called.as_ref());
