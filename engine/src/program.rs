@@ -8,15 +8,18 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_dialects::{Dialect, Settings};
 use ncc_driver::guess::recognise;
+use ncc_driver::job::Job;
 use ncc_driver::job::options::{choose, state_units};
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
 use ncc_driver::side::Side;
 use ncc_driver::source::include_path::{Library, load_subprograms};
 use ncc_driver::source::{Source, not_milling};
+use ncc_driver::time::drive::{Plan, Stage};
 use ncc_ir::canon::Units;
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
+use ncc_time::{AssumedFact, Model};
 
 use crate::request::{self, One};
 
@@ -127,4 +130,22 @@ pub(crate) fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Si
     let mut side = Side::of(source, from, if own { machines } else { Machines::default() }, None);
     side.job.rivals = rivals;
     Ok(side)
+}
+
+/// How a program is executed and timed, and what that takes for granted of its machine.
+pub(crate) fn plan<'p>(job: &'p Job, profile: Option<&Profile>) -> (Plan<'p>, Vec<AssumedFact>) {
+    let model = Model::default();
+    let (machine, assumed) = profile.map(Profile::machine).unwrap_or_default().assumed(model);
+    let plan = Plan {
+        job,
+        machine,
+        tables: profile.map(Profile::tables).unwrap_or_default(),
+        parameters: [None; 2],
+        model,
+        skip: 0,
+        start_time: 0.0,
+        stage: Stage::After,
+        centre: true,
+    };
+    (plan, assumed)
 }

@@ -14,12 +14,11 @@ use ncc_driver::simulate::path::{Path, Recorder};
 use ncc_driver::simulate::{columns, document, files as parts, raw, told, tooling};
 use ncc_driver::source::Source;
 use ncc_driver::time::assumed;
-use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
+use ncc_driver::time::drive::{Unwatched, drive};
 use ncc_machines::Profile;
 use ncc_simulate::{Fixture, HeightMap, Stock};
-use ncc_time::Model;
 
-use crate::program::{Files, Outputs, profile, side};
+use crate::program::{Files, Outputs, plan, profile, side};
 use crate::request::{One, Seek, Simulate};
 
 /// The program that was cut last.
@@ -39,19 +38,7 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
     let profile = profile(one.machine.as_deref(), files)?;
     let Side { mut source, job } = side(one, files, messages)?;
-    let model = Model::default();
-    let (machine, unstated) = profile.as_deref().map(Profile::machine).unwrap_or_default().assumed(model);
-    let plan = Plan {
-        job: &job,
-        machine,
-        tables: profile.as_deref().map(Profile::tables).unwrap_or_default(),
-        parameters: [None; 2],
-        model,
-        skip: 0,
-        start_time: 0.0,
-        stage: Stage::After,
-        centre: true,
-    };
+    let (plan, unstated) = plan(&job, profile.as_deref());
     let mut recorder = Recorder::new(&plan.tables, false);
     let course = drive(&plan, &mut source, &mut recorder, &mut Unwatched).map_err(cannot)?;
     let shown = source.shown.clone();

@@ -24,16 +24,15 @@ use ncc_driver::review::verify::hashes::{self, Named};
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
 use ncc_driver::source::include_path::load_subprograms;
-use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
+use ncc_driver::time::drive::{Stage, Unwatched, drive};
 use ncc_driver::time::payload::{Header, Payload, Shape};
 use ncc_driver::translate::{rewrite, tools_by_name, translate};
 use ncc_ir::diag::Verdict;
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
-use ncc_time::Model;
 
 use crate::colours;
-use crate::program::{Files, InMemory, Outputs, named, open, pairs, profile, settings, side};
+use crate::program::{Files, InMemory, Outputs, named, open, pairs, plan, profile, settings, side};
 use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};
 use crate::simulate::{self, Kept};
 use crate::words;
@@ -210,24 +209,12 @@ fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outpu
     let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
     let profile = profile(one.machine.as_deref(), files)?;
     let Side { mut source, job } = side(one, files, messages)?;
-    let model = Model::default();
-    let (machine, _) = profile.as_deref().map(Profile::machine).unwrap_or_default().assumed(model);
-    let plan = Plan {
-        job: &job,
-        machine: machine.clone(),
-        tables: profile.as_deref().map(Profile::tables).unwrap_or_default(),
-        parameters: [None; 2],
-        model,
-        skip: 0,
-        start_time: 0.0,
-        stage: Stage::After,
-        centre: true,
-    };
+    let (plan, _) = plan(&job, profile.as_deref());
     let title = profile.as_deref().map_or("", |profile| &profile.schema.title);
     let header = Header { prog_name: &one.file, machine_name: title, dialect: &job.from.dialect.id };
     let mut times = Vec::new();
     let mut sink =
-        Payload::new(&header, &machine, Shape::Document, Stage::After, &mut times).map_err(cannot)?;
+        Payload::new(&header, &plan.machine, Shape::Document, Stage::After, &mut times).map_err(cannot)?;
     let course = drive(&plan, &mut source, &mut sink, &mut Unwatched).map_err(cannot)?;
     sink.finish().map_err(cannot)?;
     let shown = source.shown.clone();

@@ -36,7 +36,7 @@ pub const COLOURS: [[u8; 3]; 7] = [
 /// The colour of what no tool has touched.
 pub const RAW: [u8; 3] = [0xb8, 0xbc, 0xc2];
 
-/// Where the light comes from; of length 1.
+/// Direction to the light, a unit vector.
 const LIGHT: [f64; 3] = [-0.408_248_3, -0.408_248_3, 0.816_496_6];
 
 /// Draws a part above a level, `most` pixels along the longer side. `tool` says which tool made a move, counted from 0.
@@ -67,8 +67,8 @@ fn colour(map: &HeightMap, cell: usize, tool: &dyn Fn(u32) -> usize) -> [u8; 3] 
     }
 }
 
-/// How many cells around a cell tell how steep the surface is there: walls of a grid are stairs, and are lit as what they
-/// stand for.
+/// The slope at a cell is that of the cells up to this many away. A round wall is a staircase on a grid; so it is lit as a round
+/// wall.
 const AROUND: usize = 2;
 
 /// How steeply the surface rises over a cell along both axes. What is below the level counts as the level.
@@ -116,7 +116,8 @@ fn plan(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -
 /// cos 30°: along the axes of an isometric picture.
 const COS: f64 = 0.866_025_403_784_438_6;
 
-/// A part seen from a corner: columns of pixels go from the front to the back, and what is nearer hides what is behind it.
+/// Draws the isometric picture, one column of pixels after the other, from the front to the back. A nearer cell hides those
+/// behind it.
 fn corner(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -> Picture {
     let [columns, rows] = map.grid.cells;
     let cell = map.grid.cell;

@@ -421,7 +421,7 @@ impl Cells for Cutting<'_> {
         }
         let done = whole * LANES;
         if done < count {
-            // What is behind the last cell stays.
+            // Lanes behind the last cell change nothing.
             let new = surface.at(first);
             let new = first.cmp_lt(f32x4::splat(count as f32)).blend(new, f32x4::splat(f32::INFINITY));
             match (heights[done..].first_chunk_mut(), last[done..].first_chunk_mut()) {

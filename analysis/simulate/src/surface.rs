@@ -11,9 +11,9 @@ use crate::map::Grid;
 /// Steps by which the place is found where a round corner touches: each halves what is not known.
 const HALVINGS: usize = 16;
 
-/// What takes the surface, row by row.
+/// A visitor of the surface that a move leaves, row by row.
 pub(crate) trait Cells {
-    /// Where the cells are.
+    /// The grid of the cells.
     fn grid(&self) -> Grid;
 
     /// Rows of these columns come.
@@ -29,7 +29,7 @@ pub(crate) trait Surface {
     fn at(&self, i: f32x4) -> f32x4;
 }
 
-/// What all surfaces along a straight way have.
+/// The values that all surfaces along a line share.
 #[derive(Clone, Copy)]
 pub(super) struct Sloped {
     pub(super) at: Across,
@@ -67,7 +67,7 @@ impl<W: Surface> Surface for Within<W> {
     }
 }
 
-/// Where the cells of a row are around a place.
+/// Distances of the cells of a row from a place.
 #[derive(Clone, Copy)]
 pub(super) struct Around {
     pub(super) x: f32,
@@ -242,7 +242,7 @@ impl Surface for Cone {
     }
 }
 
-/// Where the cells of a row are, along and across a line.
+/// Coordinates of the cells of a row along and across a line.
 #[derive(Clone, Copy)]
 pub(super) struct Across {
     pub(super) s: f32,

@@ -26,6 +26,7 @@ simulate-shape-guessed = { $known }, shape guessed
 simulate-grid = { $columns } × { $rows }, { $cell } mm each
 simulate-rests-tool = this rests on a guessed tool: `--tool` or the profile states it
 simulate-rests-raw = this rests on a guessed raw part: `--stock` states it
+simulate-heights = the height of the tool is not known at the start and at places of the machine: it cuts nothing until it moves along Z
 simulate-offsets = work offsets { $offsets } lie in one place here: a profile with `[[work_offset]]` says where they are
 simulate-between = between the parts
 simulate-same = no height differs by more than { $tolerance } mm

@@ -76,6 +76,8 @@ pub struct Path {
     pub remarks: BTreeMap<i64, Remark>,
     /// The work offsets in which it moves.
     pub offsets: Vec<u16>,
+    /// Whether it moves at heights that nobody knows.
+    pub has_unknown_heights: bool,
     /// Seconds on the clock at the end.
     pub end: f64,
     /// Why it cannot be simulated, and where.
@@ -130,6 +132,7 @@ impl<'t> Recorder<'t> {
     pub fn finish(self) -> Path {
         let Recorder { mut path, tables, highs, top, offset, inch, said, .. } = self;
         let top = if top.is_finite() { top } else { 0.0 };
+        path.has_unknown_heights = !highs.is_empty();
         for n in highs {
             path.moves[n].end[Z] = top;
         }
@@ -171,7 +174,10 @@ impl<'t> Recorder<'t> {
         let mut adds = said.tip.tool;
         if adds[Z] == 0 {
             // Nobody measures with its length now, and it is as long all the same.
-            let length = u32::try_from(tool).ok().and_then(|tool| self.tables.lengths.get(&tool));
+            let length = u32::try_from(tool).ok().and_then(|tool| {
+                let entry = self.tables.edge_entries.get(&tool).copied().unwrap_or(tool);
+                self.tables.lengths.get(&entry)
+            });
             adds[Z] = length.copied().unwrap_or(0);
         }
         adds

@@ -174,7 +174,7 @@ pub fn write_alarms(
         }
     }
     for (code, count) in met.into_iter().filter(|(_, count)| *count > MOST && loudness != Loudness::Verbose) {
-        writeln!(out, "… {} × {code} (-v)\n", count - MOST)?;
+        writeln!(out, "… and {} more of {code} (-v shows them)\n", count - MOST)?;
     }
     Ok(())
 }
@@ -268,11 +268,18 @@ fn shape(own: &Shape) -> String {
     .headline()
 }
 
-/// That several work offsets lie in one place, because nobody states where they are.
-pub fn unplaced(path: &Path, tables: &Tables) -> Option<String> {
+/// What a simulation takes for granted of places that nobody states: a line each.
+pub fn unplaced(path: &Path, tables: &Tables) -> Vec<String> {
+    let mut lines = Vec::new();
+    if path.has_unknown_heights {
+        lines.push(words("heights").headline());
+    }
     let unstated = path.offsets.iter().filter(|offset| !tables.work_offsets.contains_key(offset));
     let names: Vec<_> = unstated.map(ToString::to_string).collect();
-    (names.len() > 1).then(|| words("offsets").text("offsets", names.join(", ")).headline())
+    if names.len() > 1 {
+        lines.push(words("offsets").text("offsets", names.join(", ")).headline());
+    }
+    lines
 }
 
 /// Where what is known of a tool comes from.
