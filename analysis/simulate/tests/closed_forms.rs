@@ -220,14 +220,14 @@ fn any_state_can_be_shown_again() {
     let mut rng = fastrand::Rng::with_seed(7);
     let mut simulation = Simulation::new(Setup { cells: 120, ..setup(tool(&Shape::Ball, 5.0)) });
     let mut states = vec![(0, simulation.map().clone())];
-    for n in 1..=17_000 {
-        let at = [rng.f64() * 40.0, rng.f64() * 30.0, -rng.f64() * n as f64 / 1_000.0];
+    for n in 1..=170_000 {
+        let at = [rng.f64() * 40.0, rng.f64() * 30.0, -rng.f64() * n as f64 / 10_000.0];
         simulation.push(go(Way::Feed, at));
-        if n % 1_700 == 0 || n % 5_000 == 0 {
+        if n % 3_700 == 0 || n % 40_000 == 0 {
             states.push((n, simulation.map().clone()));
         }
     }
-    for _ in 0..30 {
+    for _ in 0..60 {
         let (moves, map) = &states[rng.usize(0..states.len())];
         simulation.seek(*moves);
         assert!(simulation.map() == map, "after {moves} moves");
@@ -253,6 +253,9 @@ fn alarms() {
     let mut stopped = Simulation::new(setup(flat()));
     stopped.push(Move { turns: false, ..go(Way::Feed, [0.0, 0.0, -1.0]) });
     assert_eq!(kinds(&stopped), [(AlarmKind::Stopped, 1, 1, 1.0)]);
+    // A rapid says it already.
+    stopped.push(Move { turns: false, ..go(Way::Rapid, [20.0, 15.0, -1.0]) });
+    assert_eq!(kinds(&stopped), [(AlarmKind::Stopped, 1, 1, 1.0), (AlarmKind::Rapid, 2, 2, 1.0)]);
 
     // Flutes of 5 mm, a shank of 12 mm and a holder of 40 mm that begins 12 mm above the tip.
     let long = Tool { flute: Some(5.0), shank: Some(6.0), holder: Some([20.0, 12.0]), ..flat() };
@@ -278,15 +281,38 @@ fn alarms() {
     let found = kinds(&above);
     assert!(found[0].0 == AlarmKind::Table && (found[0].3 - 2.0).abs() < MICRON, "{found:?}");
 
-    // An arc of which the end is rounded to a thousandth of a millimetre, and straight up from there.
-    let mut rounded = Simulation::new(Setup { start: [53.788, 22.954, 5.0], ..setup(flat()) });
-    rounded.push(go(Way::Feed, [53.788, 22.954, -5.0]));
-    let [arm, end]: [[f64; 2]; 2] = [[3.788, -7.046], [1.051, 7.931]];
-    let sweep = (arm[0] * end[1] - arm[1] * end[0]).atan2(arm[0] * end[0] + arm[1] * end[1]);
-    let way = Way::Arc { plane: [0, 1, 2], centre: [50.0, 30.0], sweep };
-    rounded.push(go(way, [51.051, 37.931, -5.0]));
-    rounded.push(go(Way::Rapid, [51.051, 37.931, 5.0]));
-    assert_eq!(kinds(&rounded), []);
+    // Ends of arcs as programs have them, rounded to a thousandth of a millimetre, and straight up from there.
+    let mut rng = fastrand::Rng::with_seed(11);
+    for _ in 0..200 {
+        let mut place = || [0, 1].map(|_| (rng.f64() * 8_000.0 - 4_000.0).round() / 1_000.0);
+        let (arm, other) = (place(), place());
+        let longer = arm[0].hypot(arm[1]) / other[0].hypot(other[1]);
+        let end = other.map(|at| (at * longer * 1_000.0).round() / 1_000.0);
+        let sweep = (arm[0] * end[1] - arm[1] * end[0]).atan2(arm[0] * end[0] + arm[1] * end[1]);
+        let [from, to] = [arm, end].map(|[x, y]| [20.0 + x, 15.0 + y]);
+        let mut rounded = Simulation::new(Setup { start: [from[0], from[1], 5.0], ..setup(flat()) });
+        rounded.push(go(Way::Feed, [from[0], from[1], -5.0]));
+        let way = Way::Arc { plane: [0, 1, 2], centre: [20.0, 15.0], sweep };
+        rounded.push(go(way, [to[0], to[1], -5.0]));
+        rounded.push(go(Way::Rapid, [to[0], to[1], 5.0]));
+        assert_eq!(kinds(&rounded), [], "{arm:?} {end:?}");
+    }
+
+    // Back in rapid a thousandth of a millimetre beside what was cut, where that decides on a row of cells.
+    let mut beside =
+        Simulation::new(Setup { start: [10.0, 14.9995, 5.0], ..setup(tool(&Shape::Flat, 10.1)) });
+    beside.push(go(Way::Feed, [10.0, 14.9995, -5.0]));
+    beside.push(go(Way::Feed, [30.0, 14.9995, -5.0]));
+    beside.push(go(Way::Rapid, [30.0, 15.0005, -5.0]));
+    beside.push(go(Way::Rapid, [10.0, 15.0005, -5.0]));
+    assert_eq!(kinds(&beside), []);
+
+    // The end of an arc is farther from its centre than its start: the tool has been there, and leaves nothing.
+    let mut wider = Simulation::new(Setup { start: [24.0, 15.0, 5.0], ..setup(flat()) });
+    wider.push(go(Way::Feed, [24.0, 15.0, -5.0]));
+    wider.push(go(Way::Arc { plane: [0, 1, 2], centre: [20.0, 15.0], sweep: PI / 2.0 }, [20.0, 19.4, -5.0]));
+    wider.push(go(Way::Feed, [20.0, 19.4, 5.0]));
+    assert!(wider.removed()[1].volume > 100.0 && wider.removed()[2].volume < 1e-6, "{:?}", wider.removed());
 
     let clamp = Stock::Block { low: [-10.0, 10.0, -20.0], high: [0.0, 20.0, 5.0] };
     let fixtures = vec![Fixture { name: "clamp".to_owned(), shape: clamp }];
