@@ -375,10 +375,10 @@ mod tests {
             edge_entries: BTreeMap::from([(1, 11)]),
             ..Tables::default()
         };
-        let path = path(tables, &BLOCKS.replace("G49 ", ""));
+        let path = path(tables, BLOCKS);
         let all: Vec<f64> = heights(&path).iter().map(|own| own.1).collect();
-        // The machine's zero is 400 mm above the part's, and the tool hangs 100 mm down from there.
-        assert_eq!(all, [300.0, 5.0, -1.0, 5.0, 300.0, 300.0, 2.0]);
+        // The machine's zero is 400 mm above the part's, and the tool hangs 100 mm down from there. With G49 it is as long.
+        assert_eq!(all, [300.0, 5.0, -1.0, -95.0, 300.0, 300.0, 2.0]);
         assert!(path.has_unknown_heights);
     }
 
