@@ -52,7 +52,7 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     assumed.extend(assumed::of_machine(&plan, &unstated, &course));
     assumed.extend(assumed::of_run(&plan, &course));
     assumed.extend(assumed::of_program(&job, &course.diagnostics));
-    assumed.extend(told::unplaced(&path, &plan.tables));
+    assumed.extend(told::assumptions(&path, &plan.tables, &course));
     let dialect = job.from.dialect.id.clone();
     Ok(Some(Executed { path, source, dialect, profile, assumed }))
 }

@@ -357,9 +357,9 @@ table! {
         end_diameter: f64 = Takes::FromZero;
         /// Length of what cuts, from the tip, mm.
         flute: f64 = Takes::AboveZero;
-        /// Diameter of the shank above the flutes, mm.
+        /// Diameter of the shank above the flutes, mm; it counts with `flute`.
         shank: f64 = Takes::AboveZero;
-        /// Diameter of the holder, mm.
+        /// Diameter of the holder, mm; it counts with `holder_from`.
         holder: f64 = Takes::AboveZero;
         /// How high above the tip the holder begins, mm.
         holder_from: f64 = Takes::AboveZero;

@@ -203,7 +203,7 @@ fn carry_out(
     }
     let path = recorder.finish();
     let mut assumed = time::assumptions(&shop, &plan, &course);
-    assumed.extend(told::unplaced(&path, &plan.tables));
+    assumed.extend(told::assumptions(&path, &plan.tables, &course));
     let stated: BTreeMap<_, _> = args.tool.iter().cloned().collect();
     if stated.len() < args.tool.len() {
         return Err(Problem::usage("a tool is stated twice", "state each tool once"));

@@ -20,6 +20,7 @@ use crate::render::messages::message::{Help, Message, Part};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};
 use crate::source::Source;
+use crate::time::drive::Course;
 use crate::time::duration;
 
 /// The codes of alarms, and of a cut that is not simulated.
@@ -268,9 +269,12 @@ fn shape(own: &Shape) -> String {
     .headline()
 }
 
-/// What a simulation takes for granted of places that nobody states: a line each.
-pub fn unplaced(path: &Path, tables: &Tables) -> Vec<String> {
+/// What a simulation takes for granted besides what the times do: a line each.
+pub fn assumptions(path: &Path, tables: &Tables, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
+    if !course.as_programmed.is_empty() {
+        lines.push(words("contours").headline());
+    }
     if path.has_unknown_heights {
         lines.push(words("heights").headline());
     }
