@@ -129,6 +129,28 @@ page("an alarm of the part is a problem, and a click goes to its moment", {}, as
   assert.ok((await pixels(own, "#bands", { alarm: "--warning" })).alarm > 10);
 });
 
+both("the outline lists the tools with their times, a click goes to the tool's call, and a tool is folded", {}, async (own) => {
+  await type(own, SQUARE);
+  const rows = own.locator("#outline-list button");
+  await rows.nth(1).waitFor();
+  assert.equal(await rows.count(), 2);
+  assert.equal(await own.locator('#editor .cm-foldGutter span[title="Fold"]').count(), 2);
+  assert.deepEqual(await rows.evaluateAll((all) => all.map((row) => row.dataset.line)), ["4", "18"]);
+  assert.match(await rows.nth(1).textContent(), /^T218Drill ⌀ ≈ 6\.00 mm\d:\d\d\.\d0:\d\d\.\d$/);
+  await rows.nth(1).click();
+  assert.equal(await line(own), 18);
+  const [now, total] = (await value(own, "#clock")).split(" / ");
+  assert.ok(now !== "0:00.0" && now !== total, now);
+  const shut = own.locator("#editor .cm-foldPlaceholder");
+  await own.keyboard.press("Control+Shift+BracketLeft");
+  assert.equal(await shut.count(), 1);
+  await shut.click();
+  assert.equal(await shut.count(), 0);
+  await own.locator('#editor .cm-foldGutter span[title="Fold"]').first().click();
+  assert.equal(await own.locator("#editor .cm-line", { hasText: "Y50." }).count(), 0);
+  assert.equal(await own.locator("#editor .cm-line", { hasText: "T2 M6" }).count(), 1);
+});
+
 page("a word under the pointer is explained, and words are offered while somebody types", {}, async (own) => {
   await type(own, SQUARE);
   await own.locator("#editor .c-code-g", { hasText: "G43" }).first().hover();
