@@ -267,6 +267,17 @@ both("a program is translated beside its source, and verified", {}, async (own) 
   assert.match(readFileSync(await download.path(), "utf8"), /M30/);
 });
 
+both("the parts of a program and its translation are compared", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.click("#tab-translate");
+  assert.ok(await own.isDisabled("#compare"));
+  await own.selectOption("#to", "siemens");
+  await ready(own);
+  await own.click("#compare");
+  await own.waitForFunction(() => /mm/.test(document.querySelector("#compared").textContent));
+  assert.equal(await value(own, "#compared"), "Parts the same to 0.001 mm");
+});
+
 page("a question is answered by a click, and the answer can be taken back", {}, async (own) => {
   await type(own, ASKS);
   await own.click("#tab-translate");
