@@ -4,7 +4,7 @@ import { Editor } from "./editor/editor";
 import { Outline } from "./editor/outline";
 import { ProblemList } from "./editor/problems";
 import type { Colours } from "./engine/documents";
-import { loopbackToken, openEngines } from "./engine/host";
+import { TooOld, loopbackToken, openEngines } from "./engine/host";
 import { MachinePane } from "./machine/pane";
 import { Desk, download } from "./projects/desk";
 import { ProjectsDialog, wireDrop } from "./projects/dialog";
@@ -168,7 +168,7 @@ try {
   editor.recolour();
 } catch (error) {
   session.state.set("failed");
-  session.checked.set({ problems: [], notChecked: [], told: `${say("noEngine")}\n${String(error)}` });
+  session.checked.set({ problems: [], notChecked: [], told: `${say(error instanceof TooOld ? "tooOld" : "noEngine")}\n${String(error)}` });
 }
 if ("serviceWorker" in navigator && token === undefined) {
   void navigator.serviceWorker.register("sw.js").catch(() => undefined);

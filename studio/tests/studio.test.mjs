@@ -443,6 +443,16 @@ page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
   assert.ok((await pixels(own, "#canvas", { feed: "--c-move-feed" })).feed > 50);
 });
 
+test("a browser without SIMD in WebAssembly is told that it is too old", async () => {
+  const context = await world.browser.newContext({ locale: "en-US" });
+  const own = await context.newPage();
+  await own.addInitScript(() => (WebAssembly.validate = () => false));
+  await own.goto(world.site.url);
+  await own.waitForSelector('#state[data-state="failed"]', { state: "attached" });
+  assert.match(await value(own, "#problems-list"), /too old for the compiler/);
+  await context.close();
+});
+
 test("ncc studio: a folder's programs are opened, saved back, and followed", { skip: !NCC && "NCC names no binary" }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "ncc-studio-"));
   const file = join(folder, "part.nc");
