@@ -143,6 +143,10 @@ pub struct Simulate {
     /// Cells along the longer side of the part, 16 to 8192.
     #[serde(default = "cells")]
     pub cells: usize,
+    /// Another program, whose part of the same raw part, by the same tools, is held against this one: the document has it
+    /// too, and `between`.
+    #[serde(default)]
+    pub compare: Option<One>,
 }
 
 fn cells() -> usize {

@@ -7,10 +7,13 @@ use std::io;
 
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
-use ncc_driver::render::{About, Loudness, human};
+use ncc_driver::render::{About, Loudness, Told, human};
 use ncc_driver::side::Side;
+use ncc_driver::simulate::compare::Between;
 use ncc_driver::simulate::cut::{Bench, CutProgram, cut};
+use ncc_driver::simulate::described::Described;
 use ncc_driver::simulate::path::{Path, Recorder};
+use ncc_driver::simulate::tooling::Fitted;
 use ncc_driver::simulate::{columns, document, files as parts, raw, told, tooling};
 use ncc_driver::source::Source;
 use ncc_driver::time::assumed;
@@ -23,6 +26,26 @@ use crate::request::{One, Seek, Simulate};
 
 /// The program that was cut last.
 pub(crate) type Kept = Option<Box<CutProgram>>;
+
+/// Heights of two parts that are no further apart are the same, mm: as of `ncc simulate --compare`.
+const TOLERANCE: f64 = 0.001;
+
+/// A program that was cut.
+struct Done {
+    file: String,
+    cut: CutProgram,
+    alarms: Vec<Told>,
+    dialect: String,
+    assumed: Vec<String>,
+}
+
+impl Done {
+    /// Its row of the document.
+    fn row(&self) -> (document::About<'_>, &CutProgram, &[Told]) {
+        let about = document::About { source: &self.file, dialect: &self.dialect, assumed: &self.assumed };
+        (about, &self.cut, &self.alarms)
+    }
+}
 
 /// A program that was executed.
 struct Executed {
@@ -106,33 +129,77 @@ pub(crate) fn simulate(
         cells: asked.cells.clamp(16, 8192),
     };
     let one = asked.one();
-    let Some(mut executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
+    let Some(executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
     let path = moves(&executed.path)?;
     let fitted = tooling::tools(&executed.path, &stated, executed.profile.as_deref())
         .map_err(|fault| told::no_cutter(&fault))?;
-    let cannot = |e: io::Error| Problem::file("read", &asked.file, &e);
-    let done = match cut(executed.path, fitted, bench) {
-        Ok(done) => done,
-        Err(uncut) => {
-            let problem = told::write_refusal(messages, uncut, &mut executed.source).map_err(cannot)?;
-            return match problem {
-                Some(problem) => Err(problem),
-                // Its way can be drawn all the same.
-                None => Ok((Exit::Refused, vec![("path", path)])),
-            };
-        }
+    let Some(done) = carry_out(&one, executed, fitted, bench.clone(), messages)? else {
+        // Its way can be drawn all the same.
+        return Ok((Exit::Refused, vec![("path", path)]));
     };
-    let (alarms, lines) = told::alarms(&done, &mut executed.source).map_err(cannot)?;
-    told::write_alarms(messages, &alarms, &lines, Loudness::Usual).map_err(cannot)?;
-    let about =
-        document::About { source: &asked.file, dialect: &executed.dialect, assumed: &executed.assumed };
+    let mut all = vec![done];
+    if let Some(other) = &asked.compare {
+        let Some(other) = held_against(other, &all[0], &stated, bench, files, messages)? else {
+            return Ok((Exit::Refused, vec![("path", path)]));
+        };
+        all.push(other);
+    }
+    let between = all.get(1).map(|other| {
+        let (own, floor) = (all[0].cut.simulation.map(), parts::floor(&all[0].cut));
+        Between::of(own, other.cut.simulation.map(), floor)
+    });
+    let programs: Vec<_> = all.iter().map(Done::row).collect();
     let mut document = Vec::new();
-    document::write(&mut document, &[(about, &done, &alarms)], None).map_err(cannot)?;
-    let exit = if done.has_sure_alarms() { Exit::Refused } else { Exit::Done };
+    document::write(&mut document, &programs, between.map(|between| (between, TOLERANCE)))
+        .map_err(|e| Problem::file("write", "the document", &e))?;
+    let is_same = between.is_none_or(|between| between.is_within(TOLERANCE));
+    let is_sound = is_same && !all.iter().any(|done| done.cut.has_sure_alarms());
+    let done = all.swap_remove(0).cut;
     let mut outputs = vec![("document", document), ("path", path)];
     outputs.extend(part(done.simulation.map()));
     *kept = Some(Box::new(done));
-    Ok((exit, outputs))
+    Ok((if is_sound { Exit::Done } else { Exit::Refused }, outputs))
+}
+
+/// Cuts a program that was executed and tells its alarms; `None` where it was refused, which has been told.
+fn carry_out(
+    one: &One,
+    mut executed: Executed,
+    fitted: Vec<Fitted>,
+    bench: Bench,
+    messages: &mut Buffer,
+) -> Result<Option<Done>, Problem> {
+    let cannot = |e: io::Error| Problem::file("read", &one.file, &e);
+    let cut = match cut(executed.path, fitted, bench) {
+        Ok(cut) => cut,
+        Err(uncut) => {
+            return match told::write_refusal(messages, uncut, &mut executed.source).map_err(cannot)? {
+                Some(problem) => Err(problem),
+                None => Ok(None),
+            };
+        }
+    };
+    let (alarms, lines) = told::alarms(&cut, &mut executed.source).map_err(cannot)?;
+    told::write_alarms(messages, &alarms, &lines, Loudness::Usual).map_err(cannot)?;
+    let Executed { dialect, assumed, .. } = executed;
+    Ok(Some(Done { file: one.file.clone(), cut, alarms, dialect, assumed }))
+}
+
+/// Cuts the other program from the same raw part, with the same tools: guesses too, so that only the ways differ.
+fn held_against(
+    one: &One,
+    done: &Done,
+    stated: &BTreeMap<i64, Described>,
+    bench: Bench,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<Option<Done>, Problem> {
+    let Some(executed) = execute(one, files, messages)? else { return Ok(None) };
+    let fitted = tooling::tools(&executed.path, stated, executed.profile.as_deref())
+        .map_err(|fault| told::no_cutter(&fault))?;
+    let fitted = done.cut.shared_tools(&executed.path, fitted);
+    let stock = Some(done.cut.simulation.setup().stock.clone());
+    carry_out(one, executed, fitted, Bench { stock, ..bench }, messages)
 }
 
 /// A part as numbers: heights in mm, and the number of the move that cut last, of each cell; little-endian.

@@ -164,6 +164,33 @@ fn a_part_is_shown_after_any_move() {
 }
 
 #[test]
+fn parts_of_two_programs_are_compared() {
+    // The same way with no word of the tool's size but in the first; then a slot 0.1 mm less deep.
+    let sized = SLOT.replace("T1 M6", "(T1 D=10. END MILL)\nT1 M6");
+    let compared = |other: &str| {
+        let request = r#"{ "verb": "simulate", "file": "a.nc", "from": "fanuc", "cells": 60,
+            "compare": { "file": "b.nc", "from": "fanuc" } }"#;
+        let (code, mut engine) = done(&[("a.nc", &sized), ("b.nc", other)], request);
+        let document: serde_json::Value =
+            serde_json::from_slice(engine.output("document").unwrap_or_default()).unwrap_or_default();
+        // What is kept is the first.
+        assert_eq!(engine.run(r#"{ "verb": "seek", "moves": 0 }"#), if document.is_null() { 2 } else { 0 });
+        (code, document)
+    };
+    let (code, document) = compared(SLOT);
+    assert_eq!((code, &document["between"]["same"]), (0, &serde_json::Value::Bool(true)), "{document}");
+    assert_eq!(document["programs"].as_array().map(Vec::len), Some(2));
+    let (code, document) = compared(&SLOT.replace("Z-2.", "Z-1.9"));
+    let between = &document["between"];
+    assert_eq!((code, &between["same"]), (1, &serde_json::Value::Bool(false)));
+    let number = |value: &serde_json::Value| value.as_f64().unwrap_or_default();
+    assert!((number(&between["below"]["by"]) - 0.1).abs() < 1e-5, "{between}");
+    // 0.1 mm over a slot of 596 mm².
+    assert!(number(&between["more"]) == 0.0 && (number(&between["less"]) - 59.6).abs() < 1.0, "{between}");
+    assert_eq!(compared("%\nO1\nG21\nG65 P9999\nM30\n%\n").0, 1);
+}
+
+#[test]
 fn words_have_colours_whatever_they_mean() {
     let coloured = |text: &str, request: &str| {
         let (code, engine) = done(&[("part.nc", text)], request);

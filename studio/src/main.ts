@@ -1,8 +1,10 @@
 // The page put together: who tells whom.
 
 import { Editor } from "./editor/editor";
+import { Outline } from "./editor/outline";
 import { ProblemList } from "./editor/problems";
-import { loopbackToken, openEngines } from "./engine/host";
+import type { Colours } from "./engine/documents";
+import { TooOld, loopbackToken, openEngines } from "./engine/host";
 import { MachinePane } from "./machine/pane";
 import { Desk, download } from "./projects/desk";
 import { ProjectsDialog, wireDrop } from "./projects/dialog";
@@ -38,12 +40,15 @@ let follow = true;
 /** Whether the user put the moment somewhere: then a new path leaves it there. */
 let placed = false;
 
+/** Colours of lines of a text in the program's dialect. */
+function colours(doc: object, first: number, lines: number): Promise<Colours | undefined> {
+  const from = session.project.get()?.choices.from ?? "auto";
+  return session.colours(doc, from === "auto" ? session.dialect.get() || from : from, first, lines);
+}
+
 const editor = new Editor(byId("editor"), {
   label: say("program"),
-  colours: (doc, first, lines) => {
-    const from = session.project.get()?.choices.from ?? "auto";
-    return session.colours(doc, from === "auto" ? session.dialect.get() || from : from, first, lines);
-  },
+  colours,
   words: () => {
     const from = session.project.get()?.choices.from ?? "auto";
     return session.words(from === "auto" ? session.dialect.get() : from);
@@ -65,6 +70,16 @@ const problems = new ProblemList(({ place: { line, column }, time }) => {
   player.playing.set(false);
   player.seek(time);
 });
+const outline = new Outline(
+  (first, lines) => colours(editor.doc, first, lines),
+  ({ line, from }) => {
+    editor.goTo(line);
+    editor.focus();
+    player.playing.set(false);
+    player.seek(from);
+  },
+  (sections) => editor.setSections(sections),
+);
 const charts = new Charts(byId("charts"), (time) => {
   player.playing.set(false);
   player.seek(time);
@@ -125,6 +140,7 @@ session.checked.on((checked) => {
 });
 session.dialect.on(() => editor.recolour());
 session.path.on((path) => {
+  void outline.show(path, session.cut);
   transport.setPath(path);
   player.open(path, placed);
   charts.setPath(path);
@@ -152,7 +168,7 @@ try {
   editor.recolour();
 } catch (error) {
   session.state.set("failed");
-  session.checked.set({ problems: [], notChecked: [], told: `${say("noEngine")}\n${String(error)}` });
+  session.checked.set({ problems: [], notChecked: [], told: `${say(error instanceof TooOld ? "tooOld" : "noEngine")}\n${String(error)}` });
 }
 if ("serviceWorker" in navigator && token === undefined) {
   void navigator.serviceWorker.register("sw.js").catch(() => undefined);

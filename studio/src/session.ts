@@ -5,7 +5,7 @@ import { Cancelled, type Answer, type Engine, type Request } from "./engine/engi
 import type { Colours, Findings, Listed, Problem, Report } from "./engine/documents";
 import type { Words } from "./editor/words";
 import type { Engines } from "./engine/host";
-import { readCut, readHeights, type Cut, type Heights } from "./engine/part";
+import { readBetween, readCut, readHeights, type Between, type Cut, type Heights } from "./engine/part";
 import { readPath, type Path } from "./engine/path";
 import { bytesOf, type Choices, type Project } from "./projects/project";
 import { Signal } from "./ui/signal";
@@ -134,6 +134,26 @@ export class Session {
     const found = this.known.get(dialect) ?? quick.run({ verb: "words", dialect }).then((answer) => answer.json<Words>("document"));
     this.known.set(dialect, found);
     return found;
+  }
+
+  /** Cuts the program and its translation from one raw part; what lies between them, or why nobody knows. */
+  async compare(to: string): Promise<Between | string | undefined> {
+    const [project, heavy] = [this.project.get(), this.engines?.heavy];
+    const output = this.translation.get()?.output;
+    if (!project || !heavy || output === undefined) return undefined;
+    const own = this.generation;
+    const file = `translated-${project.file}`;
+    heavy.put(file, new TextEncoder().encode(output));
+    const { choices } = project;
+    const compare = { file, ...given({ from: to, machine: choices.machineTo }), from_option: choices.toOption };
+    const one = { ...request(project.file, choices), ...bench(choices) };
+    try {
+      const answer = await heavy.run({ verb: "simulate", ...one, cells: CELLS, compare });
+      return own === this.generation ? (readBetween(answer) ?? answer.text("messages")) : undefined;
+    } catch (error) {
+      if (error instanceof Cancelled) return undefined;
+      return String(error);
+    }
   }
 
   private async work(): Promise<void> {

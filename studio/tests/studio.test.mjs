@@ -129,6 +129,28 @@ page("an alarm of the part is a problem, and a click goes to its moment", {}, as
   assert.ok((await pixels(own, "#bands", { alarm: "--warning" })).alarm > 10);
 });
 
+both("the outline lists the tools with their times, a click goes to the tool's call, and a tool is folded", {}, async (own) => {
+  await type(own, SQUARE);
+  const rows = own.locator("#outline-list button");
+  await rows.nth(1).waitFor();
+  assert.equal(await rows.count(), 2);
+  assert.equal(await own.locator('#editor .cm-foldGutter span[title="Fold"]').count(), 2);
+  assert.deepEqual(await rows.evaluateAll((all) => all.map((row) => row.dataset.line)), ["4", "18"]);
+  assert.match(await rows.nth(1).textContent(), /^T218Drill ⌀ ≈ 6\.00 mm\d:\d\d\.\d0:\d\d\.\d$/);
+  await rows.nth(1).click();
+  assert.equal(await line(own), 18);
+  const [now, total] = (await value(own, "#clock")).split(" / ");
+  assert.ok(now !== "0:00.0" && now !== total, now);
+  const shut = own.locator("#editor .cm-foldPlaceholder");
+  await own.keyboard.press("Control+Shift+BracketLeft");
+  assert.equal(await shut.count(), 1);
+  await shut.click();
+  assert.equal(await shut.count(), 0);
+  await own.locator('#editor .cm-foldGutter span[title="Fold"]').first().click();
+  assert.equal(await own.locator("#editor .cm-line", { hasText: "Y50." }).count(), 0);
+  assert.equal(await own.locator("#editor .cm-line", { hasText: "T2 M6" }).count(), 1);
+});
+
 page("a word under the pointer is explained, and words are offered while somebody types", {}, async (own) => {
   await type(own, SQUARE);
   await own.locator("#editor .c-code-g", { hasText: "G43" }).first().hover();
@@ -243,6 +265,17 @@ both("a program is translated beside its source, and verified", {}, async (own) 
   const [download] = await Promise.all([own.waitForEvent("download"), own.click("#translation-export")]);
   assert.match(download.suggestedFilename(), /\.mpf$/);
   assert.match(readFileSync(await download.path(), "utf8"), /M30/);
+});
+
+both("the parts of a program and its translation are compared", {}, async (own) => {
+  await type(own, SQUARE);
+  await own.click("#tab-translate");
+  assert.ok(await own.isDisabled("#compare"));
+  await own.selectOption("#to", "siemens");
+  await ready(own);
+  await own.click("#compare");
+  await own.waitForFunction(() => /mm/.test(document.querySelector("#compared").textContent));
+  assert.equal(await value(own, "#compared"), "Parts the same to 0.001 mm");
 });
 
 page("a question is answered by a click, and the answer can be taken back", {}, async (own) => {
@@ -408,6 +441,16 @@ page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
   }
   await own.click('#phone [data-goto="machine"]');
   assert.ok((await pixels(own, "#canvas", { feed: "--c-move-feed" })).feed > 50);
+});
+
+test("a browser without SIMD in WebAssembly is told that it is too old", async () => {
+  const context = await world.browser.newContext({ locale: "en-US" });
+  const own = await context.newPage();
+  await own.addInitScript(() => (WebAssembly.validate = () => false));
+  await own.goto(world.site.url);
+  await own.waitForSelector('#state[data-state="failed"]', { state: "attached" });
+  assert.match(await value(own, "#problems-list"), /too old for the compiler/);
+  await context.close();
 });
 
 test("ncc studio: a folder's programs are opened, saved back, and followed", { skip: !NCC && "NCC names no binary" }, async () => {

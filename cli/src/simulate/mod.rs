@@ -65,13 +65,16 @@ pub(crate) fn run(
         cells: usize::from(args.cells),
     };
     let should = args.against.as_deref().map(triangles).transpose()?;
-    let Some(mut done) = carry_out(args, file, bench.clone(), known, err)? else { return Ok(Exit::Refused) };
+    let Some(mut done) = carry_out(args, file, bench.clone(), None, known, err)? else {
+        return Ok(Exit::Refused);
+    };
     let other = match &args.compare {
         None => None,
         Some(other) => {
             // The same raw part, a guess too.
             let stock = Some(done.cut.simulation.setup().stock.clone());
-            let Some(other) = carry_out(args, other, Bench { stock, ..bench }, known, err)? else {
+            let Some(other) = carry_out(args, other, Bench { stock, ..bench }, Some(&done.cut), known, err)?
+            else {
                 return Ok(Exit::Refused);
             };
             Some(other)
@@ -175,15 +178,17 @@ fn triangles(path: &Path) -> Result<Stock, Problem> {
     raw::body(parts::read_stl(&bytes).map_err(|_| no_body())?).ok_or_else(no_body)
 }
 
-/// Executes a program and cuts it; `None` where it was refused, which has been told.
+/// Executes a program and cuts it, after the first one where it is compared with that; `None` where it was refused, which has
+/// been told.
 fn carry_out(
     args: &Simulate,
     file: &Path,
     bench: Bench,
+    first: Option<&CutProgram>,
     known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Option<Done>, Problem> {
-    let compared = args.file.as_deref() != Some(file);
+    let compared = first.is_some();
     let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
     let mut source = milling::open(file, voice, known, err)?;
     let mut asked: Time = args.timed(compared);
@@ -215,6 +220,10 @@ fn carry_out(
     }
     let tools =
         tooling::tools(&path, &stated, shop.profile.as_ref()).map_err(|fault| told::no_cutter(&fault))?;
+    let tools = match first {
+        Some(first) => first.shared_tools(&path, tools),
+        None => tools,
+    };
     let dialect = job.from.dialect.id.clone();
     match cut(path, tools, bench) {
         Ok(cut) => Ok(Some(Done { cut, source, dialect, assumed })),

@@ -90,6 +90,17 @@ pub fn cut(mut path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgra
 }
 
 impl CutProgram {
+    /// The tools of another program, with those of this one where their numbers are the same: guesses too, so that only the
+    /// moves of both differ.
+    pub fn shared_tools(&self, other: &Path, mut fitted: Vec<Fitted>) -> Vec<Fitted> {
+        for (used, own) in other.tools.iter().zip(&mut fitted) {
+            if let Some(at) = self.path.tools.iter().position(|tool| tool.number == used.number) {
+                *own = self.tools[at].clone();
+            }
+        }
+        fitted
+    }
+
     /// What was removed in all, mm³.
     pub fn volume(&self) -> f64 {
         self.worked.iter().map(|own| own.volume).sum()

@@ -4,7 +4,7 @@ import { completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { lintGutter, setDiagnostics, type Diagnostic } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { EditorState, StateEffect, StateField, type Extension } from "@codemirror/state";
+import { EditorState, StateEffect, StateField, type Extension, type Text } from "@codemirror/state";
 import {
   Decoration,
   EditorView,
@@ -18,6 +18,7 @@ import {
 import type { Place, Problem } from "../engine/documents";
 import { el } from "../ui/dom";
 import { coloured, recolour, type AskColours } from "./colours";
+import { folding, foldsOf, setFolds } from "./folding";
 import { look } from "./look";
 import { explained, type AskWords } from "./words";
 
@@ -69,6 +70,10 @@ export class Editor {
     return this.view.state.doc.toString();
   }
 
+  get doc(): Text {
+    return this.view.state.doc;
+  }
+
   get lines(): number {
     return this.view.state.doc.lines;
   }
@@ -111,6 +116,11 @@ export class Editor {
     const effects: StateEffect<unknown>[] = [setNow.of(line)];
     if (follow && line > 0) effects.push(EditorView.scrollIntoView(doc.line(line).from, { y: "nearest", yMargin: 60 }));
     this.view.dispatch({ effects });
+  }
+
+  /** Sections of lines that can be folded. */
+  setSections(sections: readonly { line: number; end: number }[]): void {
+    this.view.dispatch({ effects: setFolds.of(foldsOf(this.view.state, sections)) });
   }
 
   /** Shows problems at their places. */
@@ -179,7 +189,7 @@ export class Editor {
         this.line = line;
       }),
     ];
-    if (!readOnly) extensions.push(lintGutter());
+    if (!readOnly) extensions.push(lintGutter(), folding());
     return EditorState.create({ doc, extensions });
   }
 }

@@ -12,6 +12,8 @@ export const look = EditorView.theme({
   ".cm-cursor": { borderLeftColor: "var(--accent)", borderLeftWidth: "2px" },
   ".cm-gutters": { backgroundColor: "var(--panel)", color: "var(--faint)", border: "none" },
   ".cm-lineNumbers .cm-gutterElement": { padding: "0 6px 0 10px", minWidth: "3ch" },
+  ".cm-foldGutter .cm-gutterElement": { cursor: "pointer", padding: "0 3px" },
+  ".cm-foldPlaceholder": { backgroundColor: "var(--line)", border: "1px solid var(--edge)", color: "var(--dim)", padding: "0 5px" },
   ".cm-activeLineGutter": { backgroundColor: "var(--line)", color: "var(--ink)" },
   ".cm-activeLine": { backgroundColor: "var(--line)" },
   ".cm-line.now": { boxShadow: "inset 3px 0 var(--mark)", backgroundColor: "var(--mark-soft)" },

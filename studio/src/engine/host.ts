@@ -12,6 +12,12 @@ export interface Engines {
   heavy: Engine;
 }
 
+/** A module of one function that makes a vector: `i32.const 0`, `i8x16.splat`. */
+const VECTOR = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11];
+
+/** The browser lacks what the engine's module needs. */
+export class TooOld extends Error {}
+
 const WARM = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG1 X1. F100.\nM30\n%\n";
 
 /** The engines, warm: browsers compile a function when it first runs. */
@@ -21,6 +27,7 @@ export async function openEngines(): Promise<Engines> {
     const own = room();
     return { quick: new Loopback(token, `${own}-quick`), heavy: new Loopback(token, `${own}-heavy`) };
   }
+  if (!WebAssembly.validate(new Uint8Array(VECTOR))) throw new TooOld("WebAssembly SIMD");
   const module = await load("engine.wasm");
   const [quick, heavy] = [new WorkerHost(module, "worker.js"), new WorkerHost(module, "worker.js")];
   const bytes = new TextEncoder().encode(WARM);

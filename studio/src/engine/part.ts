@@ -52,6 +52,22 @@ export interface Heights {
   last: Uint32Array;
 }
 
+/** What lies between the parts of two programs, in the document of `simulate`. */
+export interface Between {
+  /** What only the first has, and only the second, mm³. */
+  more: number;
+  less: number;
+  above: { by: number } | null;
+  below: { by: number } | null;
+  /** mm */
+  tolerance: number;
+  same: boolean;
+}
+
+export function readBetween(answer: Answer): Between | undefined {
+  return answer.json<{ between?: Between }>("document")?.between;
+}
+
 export function readCut(answer: Answer): Cut | undefined {
   return answer.json<{ programs: Cut[] }>("document")?.programs[0];
 }

@@ -35,6 +35,12 @@ const FIELDS: Record<Form, string[]> = {
   cylinder: ["D", "X", "Y", "Z−", "Z+"],
 };
 
+/** A shape in words; the compiler's name where it cannot be stated here. */
+export function shapeName(shape: string): string {
+  const text = SHAPES.find(([own]) => own === shape)?.[1];
+  return text ? say(text) : shape;
+}
+
 export class SetupPane {
   constructor(
     private readonly session: Session,

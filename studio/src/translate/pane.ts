@@ -2,11 +2,12 @@
 
 import { Editor } from "../editor/editor";
 import type { Question } from "../engine/documents";
+import type { Between } from "../engine/part";
 import { download, type Desk } from "../projects/desk";
 import { choose, type Choices } from "../projects/project";
 import type { Session, Translation } from "../session";
 import { byId, el, icon } from "../ui/dom";
-import { say, type TextName } from "../ui/texts";
+import { figure, say, type TextName } from "../ui/texts";
 
 /** Options of the command line that help texts name, in backquotes. */
 const OPTION = /`(--(?:from-option|to-option|from|pass) [\w.=-]+)`/g;
@@ -31,6 +32,7 @@ export class TranslatePane {
     session.translation.on((translation) => this.show(translation));
     session.project.on(() => this.choices());
     byId("translation-export").addEventListener("click", () => this.save());
+    byId("compare").addEventListener("click", () => void this.compare());
   }
 
   private target(): string {
@@ -44,6 +46,8 @@ export class TranslatePane {
     if (text !== this.shown) this.output.open(text.replaceAll("\r\n", "\n"));
     this.shown = text;
     byId<HTMLButtonElement>("translation-export").disabled = translation?.output === undefined;
+    byId<HTMLButtonElement>("compare").disabled = translation?.output === undefined;
+    byId("compared").textContent = "";
     this.verdict(translation);
     const questions = translation?.report?.questions ?? [];
     const box = byId("questions");
@@ -111,6 +115,18 @@ export class TranslatePane {
     return el("button", { class: "chip", title: say("undoChoice", { name: text }), onclick: does }, text, icon("close"));
   }
 
+  private async compare(): Promise<void> {
+    const [place, button] = [byId("compared"), byId<HTMLButtonElement>("compare")];
+    const translation = this.session.translation.get();
+    place.textContent = say("working");
+    button.disabled = true;
+    const between = await this.session.compare(this.target());
+    // A newer translation has cleared the place already.
+    if (translation !== this.session.translation.get()) return;
+    button.disabled = false;
+    place.textContent = between === undefined ? "" : typeof between === "string" ? between.trim() : told(between);
+  }
+
   private save(): void {
     const project = this.session.project.get();
     const text = this.session.translation.get()?.output;
@@ -118,6 +134,12 @@ export class TranslatePane {
     const stem = project.file.replace(/\.\w+$/, "");
     download(`${stem}.${ENDINGS[this.target()] ?? "nc"}`, new TextEncoder().encode(text));
   }
+}
+
+function told({ same, tolerance, more, less, above, below }: Between): string {
+  if (same) return say("partsSame", { tolerance: figure(tolerance, 3) });
+  const values = { more: figure(more, 2), above: figure(above?.by ?? 0, 3), less: figure(less, 2), below: figure(below?.by ?? 0, 3) };
+  return say("partsDiffer", values);
 }
 
 function verdictOf(translation: Translation | undefined): [TextName | "", string] {
