@@ -21,8 +21,8 @@ fn simulation(shape: &Shape, cells: f64) -> Simulation {
     })
 }
 
-/// Rows along X, which rise and fall.
-fn moves() -> Vec<Move> {
+/// Rows along X, which rise and fall by so much at most, mm.
+fn moves(by: f64) -> Vec<Move> {
     let mut rng = fastrand::Rng::with_seed(3);
     let (mut x, mut y, mut sense) = (5.0, 5.0, 1.0);
     (0..MOVES)
@@ -31,14 +31,14 @@ fn moves() -> Vec<Move> {
             if !(5.0..97.0).contains(&x) {
                 (sense, y) = (-sense, y + 0.8);
             }
-            let end = [x, y, -4.0 + rng.f64() * 0.1];
+            let end = [x, y, -4.0 + rng.f64() * by];
             Move { way: Way::Feed, end, tool: 0, turns: true, time: 0.0, line: 0 }
         })
         .collect()
 }
 
-fn run(bencher: Bencher, shape: &Shape, cells: f64) {
-    let moves = moves();
+fn run(bencher: Bencher, shape: &Shape, cells: f64, by: f64) {
+    let moves = moves(by);
     bencher
         .counter(ItemsCount::new(MOVES))
         .with_inputs(|| simulation(shape, cells))
@@ -47,24 +47,29 @@ fn run(bencher: Bencher, shape: &Shape, cells: f64) {
 
 #[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
 fn flat(bencher: Bencher, cells: f64) {
-    run(bencher, &Shape::Flat, cells);
+    run(bencher, &Shape::Flat, cells, 0.1);
+}
+
+#[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
+fn flat_on_level_rows(bencher: Bencher, cells: f64) {
+    run(bencher, &Shape::Flat, cells, 0.0);
 }
 
 #[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
 fn ball(bencher: Bencher, cells: f64) {
-    run(bencher, &Shape::Ball, cells);
+    run(bencher, &Shape::Ball, cells, 0.1);
 }
 
 #[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
 fn bull_nose(bencher: Bencher, cells: f64) {
-    run(bencher, &Shape::BullNose { corner: cells * 0.02 }, cells);
+    run(bencher, &Shape::BullNose { corner: cells * 0.02 }, cells, 0.1);
 }
 
 /// The state after a move by chance, of 200,000 with a tool of so many cells in radius.
 #[divan::bench(sample_count = 60, sample_size = 1, args = [2.5, 10.0])]
 fn seek(bencher: Bencher, cells: f64) {
     let mut cut = simulation(&Shape::Flat, cells);
-    let moves = moves();
+    let moves = moves(0.1);
     (0..10).for_each(|_| moves.iter().for_each(|own| cut.push(*own)));
     let mut rng = fastrand::Rng::with_seed(5);
     bencher.bench_local(|| cut.seek(rng.usize(..cut.moves().len())));

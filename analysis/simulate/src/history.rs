@@ -23,16 +23,19 @@ struct Changes {
 }
 
 impl Changes {
-    /// Adds a cell, behind those that are there.
-    fn push(&mut self, cell: usize, height: f32, last: u16) {
-        match self.runs.last_mut() {
-            Some((first, count)) if *first as usize + usize::from(*count) == cell && *count < u16::MAX => {
-                *count += 1
-            }
-            _ => self.runs.push((cell as u32, 1)),
+    /// Adds the cells of a part of a row that moves of the stride have cut.
+    fn add(&mut self, map: &HeightMap, cells: std::ops::Range<usize>, before: usize) {
+        let before = before as u32;
+        let (mut first, end) = (cells.start, cells.end);
+        while let Some(skipped) = map.last[first..end].iter().position(|last| *last > before) {
+            first += skipped;
+            let rest = &map.last[first..end];
+            let count = rest.iter().position(|last| *last <= before).unwrap_or(rest.len());
+            self.runs.push((first as u32, count as u16));
+            self.heights.extend_from_slice(&map.heights[first..first + count]);
+            self.last.extend(rest[..count].iter().map(|last| (last - before - 1) as u16));
+            first += count;
         }
-        self.heights.push(height);
-        self.last.push(last);
     }
 
     /// Puts them into a map; `before` moves were made before the stride.
@@ -106,16 +109,8 @@ impl History {
     pub(crate) fn keep(&mut self, map: &HeightMap) {
         let mut changes = Changes::default();
         let before = self.strides.len() * STRIDE;
-        self.each_dirty(|base, cells| {
-            for cell in cells {
-                let last = map.last[cell];
-                if base.last[cell] != last {
-                    changes.push(cell, map.heights[cell], (last as usize - before - 1) as u16);
-                    base.heights[cell] = map.heights[cell];
-                    base.last[cell] = last;
-                }
-            }
-        });
+        self.each_dirty(|_, cells| changes.add(map, cells, before));
+        changes.put_into(&mut self.base, before);
         changes.runs.shrink_to_fit();
         changes.heights.shrink_to_fit();
         changes.last.shrink_to_fit();

@@ -22,6 +22,7 @@ mod map;
 mod mesh;
 mod moves;
 mod picture;
+mod rows;
 mod simulation;
 mod stock;
 mod surface;

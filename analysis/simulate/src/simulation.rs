@@ -9,7 +9,7 @@ use crate::history::{History, STRIDE};
 use crate::map::{Grid, HeightMap};
 use crate::moves::{Move, Way};
 use crate::stock::{Fixture, Stock};
-use crate::surface::{Cells, Surface};
+use crate::surface::{COUNT, Cells, LANES, Surface};
 use crate::sweep::{chords, sweep};
 use crate::tool::{Cutter, Tool};
 
@@ -187,6 +187,8 @@ impl Simulation {
         if lowest(from, own) >= f64::from(self.highest) {
             return Cut::default();
         }
+        let before = number.checked_sub(1).map(|before| &self.moves[before]);
+        let continues = before.is_some_and(|before| before.tool == own.tool && before.way != Way::Away);
         let mut cutting = Cutting {
             map: &mut self.map,
             number: number as u32 + 1,
@@ -194,7 +196,7 @@ impl Simulation {
             cells: 0.0,
             sums: Sums::default(),
         };
-        sweep(&mut cutting, &tool.cutter, from, own.end, &own.way);
+        sweep(&mut cutting, &tool.cutter, [from, own.end], &own.way, continues);
         cutting.add_up();
         let Cutting { mut cut, cells, .. } = cutting;
         cut.removed.volume = (cells * self.map.grid.cell * self.map.grid.cell) as f32;
@@ -346,12 +348,6 @@ impl Cutting<'_> {
     }
 }
 
-/// Cells that are worked on together: compilers make one instruction of what is done to four.
-const LANES: usize = 4;
-
-/// Their places, from the first of them.
-const COUNT: f32x4 = f32x4::new([0.0, 1.0, 2.0, 3.0]);
-
 /// What was removed in some cells, in as many sums.
 #[derive(Clone, Copy, Default)]
 struct Sums {
@@ -404,14 +400,12 @@ impl Cells for Cutting<'_> {
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
         let start = row * self.map.grid.cells[0];
         let (begin, end) = (start + columns.start, start + columns.end);
-        let (heights, last) = (&mut self.map.heights[begin..], &mut self.map.last[begin..]);
+        let (heights, last) = (&mut self.map.heights[begin..end], &mut self.map.last[begin..end]);
         let mut sums = self.sums;
-        let count = end - begin;
-        let whole = count / LANES;
         let (by_four, _) = heights.as_chunks_mut::<LANES>();
         let (last_by_four, _) = last.as_chunks_mut::<LANES>();
         let mut first = COUNT;
-        for (heights, last) in by_four.iter_mut().zip(last_by_four).take(whole) {
+        for (heights, last) in by_four.iter_mut().zip(last_by_four) {
             let new = surface.at(first);
             // Most of what a tool goes over is cut already.
             if new.cmp_lt(f32x4::new(*heights)).any() {
@@ -419,18 +413,20 @@ impl Cells for Cutting<'_> {
             }
             first += f32x4::splat(LANES as f32);
         }
-        let done = whole * LANES;
-        if done < count {
-            // Lanes behind the last cell change nothing.
-            let new = surface.at(first);
-            let new = first.cmp_lt(f32x4::splat(count as f32)).blend(new, f32x4::splat(f32::INFINITY));
-            match (heights[done..].first_chunk_mut(), last[done..].first_chunk_mut()) {
+        let count = end - begin;
+        if count % LANES > 0 {
+            // The last group has some cells once more, which changes nothing, or of those before it, which are left out.
+            let first = end - LANES.min(end);
+            let off = first as f32 - begin as f32;
+            let places = COUNT + f32x4::splat(off);
+            let new = places.cmp_lt(f32x4::ZERO).blend(f32x4::splat(f32::INFINITY), surface.at(places));
+            let (heights, last) = (&mut self.map.heights[first..end], &mut self.map.last[first..end]);
+            match (heights.first_chunk_mut(), last.first_chunk_mut()) {
                 (Some(heights), Some(last)) if new.cmp_lt(f32x4::new(*heights)).any() => {
                     sums.lower(heights, last, new.to_array(), self.number);
                 }
                 (Some(_), Some(_)) => {}
-                // The last cells of the map.
-                _ => sums.lower_few(&mut heights[done..], &mut last[done..], new.to_array(), self.number),
+                _ => sums.lower_few(heights, last, new.to_array(), self.number),
             }
         }
         self.sums = sums;
@@ -447,7 +443,7 @@ struct Hit {
 /// How deep a part of a tool goes into a map along a move, where it does.
 fn probe(map: &HeightMap, part: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
     let mut probing = Probing { map, worst: None };
-    sweep(&mut probing, part, from, own.end, &own.way);
+    sweep(&mut probing, part, [from, own.end], &own.way, false);
     probing.worst
 }
 

@@ -8,8 +8,14 @@ use wide::{CmpGt, CmpLe, CmpLt, f32x4};
 
 use crate::map::Grid;
 
+/// Cells that are worked on together: compilers make one instruction of what is done to four.
+pub(crate) const LANES: usize = 4;
+
+/// Their places, from the first of them.
+pub(crate) const COUNT: f32x4 = f32x4::new([0.0, 1.0, 2.0, 3.0]);
+
 /// Steps by which the place is found where a round corner touches: each halves what is not known.
-const HALVINGS: usize = 16;
+const HALVINGS: usize = 10;
 
 /// A visitor of the surface that a move leaves, row by row.
 pub(crate) trait Cells {
@@ -25,6 +31,9 @@ pub(crate) trait Cells {
 
 /// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
 pub(crate) trait Surface {
+    /// From so many cells of a row on, finding where an easier one counts is less work than this one. It was measured.
+    const SPLIT: usize = usize::MAX;
+
     /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
     fn at(&self, i: f32x4) -> f32x4;
 }
@@ -142,6 +151,8 @@ impl Surface for Level {
 pub(super) struct Flat(pub(super) Sloped);
 
 impl Surface for Flat {
+    const SPLIT: usize = 40;
+
     #[inline(always)]
     fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.0;
@@ -203,6 +214,8 @@ pub(super) struct SlopedRound {
 }
 
 impl Surface for SlopedRound {
+    const SPLIT: usize = 0;
+
     #[inline(always)]
     fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.own;
@@ -265,12 +278,12 @@ impl Across {
 }
 
 #[inline(always)]
-fn between(value: f32x4, low: f32x4, high: f32x4) -> f32x4 {
+pub(crate) fn between(value: f32x4, low: f32x4, high: f32x4) -> f32x4 {
     value.fast_max(low).fast_min(high)
 }
 
 #[inline(always)]
-fn not_below_zero(value: f32x4) -> f32x4 {
+pub(crate) fn not_below_zero(value: f32x4) -> f32x4 {
     value.fast_max(f32x4::ZERO)
 }
 

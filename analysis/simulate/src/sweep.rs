@@ -10,12 +10,15 @@
 //! polynomial (round corners of a flat tool). Arcs that stay level are as exact: the nearest place of the arc counts. Others,
 //! and helices, are cut into chords that leave them by less than [`CHORD`].
 
+use std::ops::Range;
+
 use crate::band::{Band, Form};
 use crate::level_arc::level_arc;
 use crate::moves::Way;
+use crate::rows::{LowEnd, Rows};
 use crate::surface::{
-    Across, Around, Ball, BallAt, Cells, Cone, ConeAt, Flat, Level, LevelRound, Round, RoundAt, Sloped,
-    SlopedRound, Surface, Within,
+    Across, Around, Ball, BallAt, Cells, Cone, ConeAt, Flat, LANES, Level, LevelRound, Round, RoundAt,
+    Sloped, SlopedRound, Surface, Within,
 };
 use crate::tool::Cutter;
 
@@ -26,20 +29,28 @@ const CHORD: f64 = 0.000_25;
 const PIECE: f64 = 32.0;
 
 /// Goes along a move of the tip.
-pub(crate) fn sweep(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3], way: &Way) {
+///
+/// `continues`: the tool has cut already what it cuts where it stands at the start.
+pub(crate) fn sweep(
+    cells: &mut impl Cells,
+    cutter: &Cutter,
+    [from, to]: [[f64; 3]; 2],
+    way: &Way,
+    continues: bool,
+) {
     match way {
         Way::Away => {}
-        Way::Rapid | Way::Feed => straight(cells, cutter, from, to),
+        Way::Rapid | Way::Feed => straight(cells, cutter, [from, to], continues),
         Way::Arc { plane: [0, 1, 2], centre, sweep } if from[2] == to[2] => {
             for band in cutter.bands() {
                 level_arc(cells, band, [from, to], *centre, *sweep);
             }
         }
         Way::Arc { plane, centre, sweep } => {
-            let mut last = from;
+            let (mut last, mut continues) = (from, continues);
             for at in chords(from, to, plane.map(usize::from), *centre, *sweep) {
-                straight(cells, cutter, last, at);
-                last = at;
+                straight(cells, cutter, [last, at], continues);
+                (last, continues) = (at, true);
             }
         }
     }
@@ -74,7 +85,7 @@ pub(crate) fn chords(
     })
 }
 
-fn straight(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3]) {
+fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], continues: bool) {
     let pieces = (distance([from[0], from[1]], [to[0], to[1]]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
     let point = |i: usize| match i == pieces {
         true => to,
@@ -83,7 +94,7 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, from: [f64; 3], to: [f64; 3
         }
     };
     for i in 0..pieces {
-        let line = Line::new(point(i), point(i + 1));
+        let line = Line::new([point(i), point(i + 1)], continues || i > 0);
         for band in cutter.bands() {
             line.sweep(cells, band);
         }
@@ -105,18 +116,28 @@ struct Line {
     length: f64,
     /// How much it rises a mm.
     rise: f64,
+    /// Whether what the tool cuts where the line starts is cut.
+    continues: bool,
 }
 
 impl Line {
-    fn new(from: [f64; 3], to: [f64; 3]) -> Line {
+    fn new([from, to]: [[f64; 3]; 2], continues: bool) -> Line {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let length = distance([from[0], from[1]], [to[0], to[1]]);
         if length < 1e-9 {
             // Straight down or up: what counts is the lower end.
             let low = [from[0], from[1], from[2].min(to[2])];
-            return Line { from: low, to: low, along: [1.0, 0.0], length: 0.0, rise: 0.0 };
+            let continues = continues && to[2] >= from[2];
+            return Line { from: low, to: low, along: [1.0, 0.0], length: 0.0, rise: 0.0, continues };
         }
-        Line { from, to, along: [x / length, y / length], length, rise: (to[2] - from[2]) / length }
+        Line {
+            from,
+            to,
+            along: [x / length, y / length],
+            length,
+            rise: (to[2] - from[2]) / length,
+            continues,
+        }
     }
 
     /// The surface that a band leaves.
@@ -156,7 +177,7 @@ impl Line {
     }
 
     /// Goes over the rows that a band touches, with the surface of the way, and with that of its low end where this one
-    /// counts.
+    /// counts and is easier to know. What the tool has cut already where it stood is left out.
     #[inline(always)]
     fn rows<W: Surface, E: Surface>(
         &self,
@@ -174,51 +195,69 @@ impl Line {
         if columns.is_empty() || rows.is_empty() {
             return;
         }
+        let narrow = columns.len() <= NARROW;
+        let columns = if narrow { whole_groups(columns, grid.cells[0]) } else { columns };
         cells.reaches(&rows, &columns);
+        let cell = grid.cell as f32;
+        let first =
+            [(0, columns.start), (1, rows.start)].map(|(axis, n)| grid.centre(axis, n) - self.from[axis]);
         let [ux, uy] = self.along;
-        let (ds, dd, length) = ((grid.cell * ux) as f32, (-grid.cell * uy) as f32, self.length as f32);
-        let across = |row, column| {
-            let off = [grid.centre(0, column) - self.from[0], grid.centre(1, row) - self.from[1]];
-            let (s, d) = ((off[0] * ux + off[1] * uy) as f32, (off[1] * ux - off[0] * uy) as f32);
-            Across { s, d, ds, dd, length }
+        // Of the first cell of a row, and by how much it grows from row to row.
+        let (s, d) = ((first[0] * ux + first[1] * uy) as f32, (first[1] * ux - first[0] * uy) as f32);
+        let (ds, dd, length) = (cell * ux as f32, -cell * uy as f32, self.length as f32);
+        let across = |row: usize, column: usize| {
+            let (row, column) = (row as f32, column as f32);
+            Across { s: s - row * dd + column * ds, d: d + row * ds + column * dd, ds, dd, length }
         };
-        if columns.len() <= NARROW {
+        let outer = (radius * radius) as f32;
+        if narrow {
             // Asking of each cell is less work than asking where the cells of each row begin.
-            let outer = (radius * radius) as f32;
-            for row in rows {
-                let at = across(row, columns.start);
-                cells.row(row, columns.clone(), &Within { way: way(at), at, outer });
+            for row in 0..rows.len() {
+                let at = across(row, 0);
+                cells.row(rows.start + row, columns.clone(), &Within { way: way(at), at, outer });
             }
             return;
         }
-        let reach = Reach::new(self, radius);
-        for row in rows {
-            let y = grid.centre(1, row);
-            let [left, right] = reach.at(y);
-            let columns = grid.between(0, left, right);
-            if columns.is_empty() {
-                continue;
-            }
-            if self.rise == 0.0 || columns.len() <= SHORT {
-                let first = columns.start;
-                cells.row(row, columns, &way(across(row, first)));
-                continue;
-            }
-            let [low, high] = self.of_low_end(y, band, [left, right]);
-            let own = grid.between(0, low, high);
-            let own = own.start.clamp(columns.start, columns.end)..own.end.clamp(columns.start, columns.end);
-            let own = if own.is_empty() { columns.start..columns.start } else { own };
-            if !own.is_empty() {
-                let low = self.low();
-                let off = y - low[1];
-                let x = (grid.centre(0, own.start) - low[0]) as f32;
-                let around = Around { x, dx: grid.cell as f32, y2: (off * off) as f32 };
-                cells.row(row, own.clone(), &end(around));
-            }
-            for columns in [columns.start..own.start, own.end..columns.end] {
-                if !columns.is_empty() {
-                    let first = columns.start;
-                    cells.row(row, columns, &way(across(row, first)));
+        let touched = Rows {
+            end: [0, 1].map(|axis| (self.to[axis] - self.from[axis]) as f32),
+            along: self.along.map(|part| part as f32),
+            length,
+            radius: radius as f32,
+            first: first.map(|at| at as f32),
+            cell,
+            columns: columns.len(),
+        };
+        let done = self.continues && self.rise >= 0.0;
+        let low = (done || columns.len() >= W::SPLIT && self.rise != 0.0).then(|| self.low_end(band));
+        for four in (0..rows.len()).step_by(LANES) {
+            let reach = touched.reach(four);
+            let all = touched.touched(reach);
+            let own = low.as_ref().map(|low| touched.of_end(touched.own(four, reach, low)));
+            for (lane, row) in (four..rows.len().min(four + LANES)).enumerate() {
+                let all = all.of(lane);
+                let mut put = |of: Range<usize>, surface: &_| {
+                    if !of.is_empty() {
+                        cells.row(
+                            rows.start + row,
+                            columns.start + of.start..columns.start + of.end,
+                            surface,
+                        );
+                    }
+                };
+                let own = own.as_ref().map_or(0..0, |own| own.of(lane));
+                let own = own.start.clamp(all.start, all.end.max(all.start))..own.end;
+                if own.is_empty() {
+                    put(all.clone(), &way(across(row, all.start)));
+                    continue;
+                }
+                put(all.start..own.start, &way(across(row, all.start)));
+                put(own.end..all.end, &way(across(row, own.end)));
+                if !done {
+                    let [x, y] = self.low_from_start();
+                    let off = first[1] as f32 + row as f32 * cell - y;
+                    let x = first[0] as f32 + own.start as f32 * cell - x;
+                    let of = columns.start + own.start..columns.start + own.end.min(all.end);
+                    cells.row(rows.start + row, of, &end(Around { x, dx: cell, y2: off * off }));
                 }
             }
         }
@@ -229,36 +268,21 @@ impl Line {
         if self.rise > 0.0 { &self.from } else { &self.to }
     }
 
-    /// Where a row of the way is cut lowest from the low end: behind that end, as the way rises, and under what is level of
-    /// the tool there. Not all such places need to be among these. The first is greater than the second where there are none.
-    #[inline(always)]
-    fn of_low_end(&self, y: f64, band: &Band, [left, right]: [f64; 2]) -> [f64; 2] {
-        let [x, at, _] = *self.low();
-        let off = y - at;
+    /// The low end, for a band.
+    fn low_end(&self, band: &Band) -> LowEnd {
         let sense = if self.rise < 0.0 { -1.0 } else { 1.0 };
-        let [ux, uy] = [self.along[0] * sense, self.along[1] * sense];
-        // Behind is where (place - end) · direction is below zero.
-        let behind = if ux > 1e-9 {
-            [left, least(right, x - off * uy / ux)]
-        } else if ux < -1e-9 {
-            [most(left, x - off * uy / ux), right]
-        } else if off * uy <= 0.0 {
-            [left, right]
-        } else {
-            [right, left]
-        };
-        let half = band.inner * band.inner - off * off;
-        if half <= 0.0 {
-            return behind;
+        LowEnd {
+            at: self.low_from_start(),
+            uphill: self.along.map(|part| (part * sense) as f32),
+            level: (band.inner * band.inner) as f32,
         }
-        let half = half.sqrt();
-        let level = [x - half, x + half];
-        if behind[0] > behind[1] {
-            return level;
-        }
-        match level[0] <= behind[1] && level[1] >= behind[0] {
-            true => [least(behind[0], level[0]), most(behind[1], level[1])],
-            false => behind,
+    }
+
+    /// Where the low end is, from the start, which is that of a level line.
+    fn low_from_start(&self) -> [f32; 2] {
+        match self.rise < 0.0 {
+            true => [0, 1].map(|axis| (self.to[axis] - self.from[axis]) as f32),
+            false => [0.0; 2],
         }
     }
 }
@@ -266,8 +290,12 @@ impl Line {
 /// A box around a line with so few columns is worked on as a whole.
 const NARROW: usize = 12;
 
-/// Rows with so few cells are worked on as a whole.
-const SHORT: usize = 8;
+/// Some more columns, so that none of them is left where they are worked on in groups.
+fn whole_groups(columns: Range<usize>, all: usize) -> Range<usize> {
+    let count = columns.len().next_multiple_of(LANES).min(all);
+    let start = columns.start.min(all - count);
+    start..start + count
+}
 
 /// The lesser of two numbers: none of them is no number, which `f64::min` must ask.
 #[inline(always)]
@@ -279,61 +307,4 @@ fn least(one: f64, other: f64) -> f64 {
 #[inline(always)]
 fn most(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
-}
-
-/// Where rows are within a distance of a line.
-struct Reach {
-    from: [f64; 2],
-    to: [f64; 2],
-    square: f64,
-    /// For both parallels: X where they begin, and how far along the line a row at the line's start is.
-    parallels: [[f64; 2]; 2],
-    /// X of a mm along the line.
-    ux: f64,
-    /// Along the line, of a mm along Y; 0 where it has none.
-    per_y: f64,
-    length: f64,
-}
-
-impl Reach {
-    fn new(line: &Line, radius: f64) -> Reach {
-        let [ux, uy] = line.along;
-        let per_y = if line.length > 0.0 && uy != 0.0 { 1.0 / uy } else { 0.0 };
-        let parallel = |side: f64| [line.from[0] - side * uy, -side * ux * per_y];
-        Reach {
-            from: [line.from[0], line.from[1]],
-            to: [line.to[0], line.to[1]],
-            square: radius * radius,
-            parallels: [parallel(radius), parallel(-radius)],
-            ux,
-            per_y,
-            length: line.length,
-        }
-    }
-
-    /// The first is greater than the second where a row is not.
-    #[inline(always)]
-    fn at(&self, y: f64) -> [f64; 2] {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let off = y - self.from[1];
-        for (end, off) in [(self.from[0], off), (self.to[0], y - self.to[1])] {
-            let half = self.square - off * off;
-            if half >= 0.0 {
-                let half = half.sqrt();
-                low = least(low, end - half);
-                high = most(high, end + half);
-            }
-        }
-        if self.per_y != 0.0 {
-            for [x, begin] in self.parallels {
-                let part = begin + off * self.per_y;
-                if part >= 0.0 && part <= self.length {
-                    let x = x + part * self.ux;
-                    low = least(low, x);
-                    high = most(high, x);
-                }
-            }
-        }
-        [low, high]
-    }
 }

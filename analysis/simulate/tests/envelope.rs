@@ -108,6 +108,23 @@ fn lowest(over: impl Fn(f64) -> Option<f64>) -> f64 {
     best
 }
 
+/// The heights that moves leave, one behind the other.
+fn heights(shape: &Shape, diameter: f64, from: [f64; 3], moves: impl Iterator<Item = Move>) -> Vec<f32> {
+    let cutter = Cutter::new(shape, diameter, 10.0).expect("a tool");
+    let tool = Tool { number: 1, cutter, flute: None, shank: None, holder: None, guessed: false };
+    let mut simulation = Simulation::new(Setup {
+        stock: Stock::Block { low: [0.0; 3], high: [20.0, 20.0, 30.0] },
+        guessed: false,
+        cells: 90,
+        tools: vec![tool],
+        fixtures: Vec::new(),
+        table: None,
+        start: from,
+    });
+    moves.for_each(|own| simulation.push(own));
+    simulation.map().heights.clone()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -115,6 +132,22 @@ proptest! {
     fn lines((shape, diameter) in shapes(), from in point(), to in point()) {
         let own = Move { way: Way::Feed, end: to, tool: 0, turns: true, time: 0.0, line: 0 };
         judge(&shape, diameter, from, own)?;
+    }
+
+    /// What a tool has cut where it stands is not asked again by its next move; after a move that cuts nothing, it is.
+    #[test]
+    fn what_a_move_goes_on_from_changes_nothing(
+        (shape, diameter) in shapes(),
+        places in prop::collection::vec(([1.0..19.0_f64, 1.0..19.0_f64], prop_oneof![Just(3.0), 0.0..8.0_f64]), 2..8),
+    ) {
+        let go = |way, ([x, y], z): ([f64; 2], f64)| Move { way, end: [x, y, z], tool: 0, turns: true, time: 0.0, line: 0 };
+        let on: Vec<Move> = places.iter().map(|at| go(Way::Feed, *at)).collect();
+        let stops = on.iter().flat_map(|own| [*own, Move { way: Way::Away, ..*own }]);
+        let from = [places[0].0[0], places[0].0[1], 30.0];
+        let [one, other] = [heights(&shape, diameter, from, on.iter().copied()), heights(&shape, diameter, from, stops)];
+        // A cell on the very border of the tool may be cut by one of them only.
+        let off = one.iter().zip(&other).filter(|(one, other)| (*one - *other).abs() > 0.000_1).count();
+        prop_assert!(off <= 2, "{off} cells differ");
     }
 
     #[test]

@@ -1,0 +1,150 @@
+//! Which cells of rows a tool touches that goes along a line: four rows at once.
+//!
+//! ```text
+//!          ╭──────────╮          left, right      where the row is within the radius of the line
+//!   row ──(──[·····]───)──       own              where the low end of the line is what counts
+//!          ╰──────────╯
+//! ```
+//!
+//! Lengths in mm from the start of the line, in single precision, which is fine enough for so short pieces. Cells on the very
+//! border count as within: half of them would come and go with the rounding.
+
+use std::ops::Range;
+
+use wide::{CmpGe, CmpGt, CmpLe, f32x4};
+
+use crate::surface::{COUNT, LANES, between, not_below_zero};
+
+/// How far the border of a tool counts outwards, in cells.
+const BORDER: f32 = 1e-4;
+
+/// A line, the radius of what goes along it, and the cells around both.
+pub(crate) struct Rows {
+    /// The end of the line.
+    pub(crate) end: [f32; 2],
+    /// Its direction.
+    pub(crate) along: [f32; 2],
+    pub(crate) length: f32,
+    /// Radius of the tool.
+    pub(crate) radius: f32,
+    /// Centre of the first cell of the first row.
+    pub(crate) first: [f32; 2],
+    /// Side of a cell.
+    pub(crate) cell: f32,
+    /// Cells of a row.
+    pub(crate) columns: usize,
+}
+
+/// The low end of a line: behind it the tool comes lowest there, and under what is level of the tool.
+pub(crate) struct LowEnd {
+    /// Where it is.
+    pub(crate) at: [f32; 2],
+    /// The direction in which the way rises from there.
+    pub(crate) uphill: [f32; 2],
+    /// Square of the radius of what is level; 0 where nothing is.
+    pub(crate) level: f32,
+}
+
+/// Cells of four rows, counted from the first of a row.
+pub(crate) struct Four {
+    first: [i32; LANES],
+    behind: [i32; LANES],
+}
+
+impl Four {
+    /// Cells of one of them.
+    #[inline(always)]
+    pub(crate) fn of(&self, lane: usize) -> Range<usize> {
+        self.first[lane] as usize..self.behind[lane] as usize
+    }
+}
+
+impl Rows {
+    /// How far rows are along Y, from one of them on.
+    #[inline(always)]
+    fn y(&self, row: usize) -> f32x4 {
+        (f32x4::splat(row as f32) + COUNT) * self.cell + self.first[1]
+    }
+
+    /// From and to which X rows are touched; the first is greater where none is.
+    #[inline(always)]
+    pub(crate) fn reach(&self, row: usize) -> [f32x4; 2] {
+        let y = self.y(row);
+        let (none, square) = (f32x4::splat(f32::INFINITY), f32x4::splat(self.radius * self.radius));
+        let (mut low, mut high) = (none, -none);
+        for (x, y) in [(0.0, y), (self.end[0], y - self.end[1])] {
+            let left = square - y * y;
+            let half = not_below_zero(left).sqrt();
+            let touched = left.cmp_ge(f32x4::ZERO);
+            low = low.fast_min(touched.blend(-half + x, none));
+            high = high.fast_max(touched.blend(half + x, -none));
+        }
+        let [ux, uy] = self.along;
+        if uy != 0.0 && self.length > 0.0 {
+            let per_y = 1.0 / uy;
+            for side in [self.radius, -self.radius] {
+                // Where the row is on this parallel.
+                let part = (y - side * ux) * per_y;
+                let on = part.cmp_ge(f32x4::ZERO) & part.cmp_le(f32x4::splat(self.length));
+                let x = part * ux - side * uy;
+                low = low.fast_min(on.blend(x, none));
+                high = high.fast_max(on.blend(x, -none));
+            }
+        }
+        [low, high]
+    }
+
+    /// Where the low end is what counts, of what is touched.
+    #[inline(always)]
+    pub(crate) fn own(&self, row: usize, [left, right]: [f32x4; 2], end: &LowEnd) -> [f32x4; 2] {
+        let y = self.y(row) - end.at[1];
+        let [ux, uy] = end.uphill;
+        let (none, x) = (f32x4::splat(f32::INFINITY), f32x4::splat(end.at[0]));
+        // Behind is where (place - end) · uphill is below zero.
+        let [low, high] = if ux > 1e-6 {
+            [left, right.fast_min(x - y * (uy / ux))]
+        } else if ux < -1e-6 {
+            [left.fast_max(x - y * (uy / ux)), right]
+        } else {
+            let behind = (y * uy).cmp_le(f32x4::ZERO);
+            [behind.blend(left, none), behind.blend(right, -none)]
+        };
+        if end.level == 0.0 {
+            return [low, high];
+        }
+        let half = f32x4::splat(end.level) - y * y;
+        let on = half.cmp_gt(f32x4::ZERO);
+        let half = not_below_zero(half).sqrt();
+        let [from, to] = [on.blend(x - half, none), on.blend(x + half, -none)];
+        // Both where they touch; the level part alone where nothing is behind; else what is behind.
+        let joined = from.cmp_le(high) & to.cmp_ge(low);
+        let alone = low.cmp_gt(high);
+        [
+            joined.blend(low.fast_min(from), alone.blend(from, low)),
+            joined.blend(high.fast_max(to), alone.blend(to, high)),
+        ]
+    }
+
+    /// Cells with centres between two X of each row.
+    #[inline(always)]
+    pub(crate) fn cells(&self, [low, high]: [f32x4; 2], border: f32) -> Four {
+        let (most, per_mm) = (f32x4::splat(self.columns as f32), 1.0 / self.cell);
+        // The cell behind each place, whatever its sign: whole numbers are cut, not rounded down.
+        let place = |x: f32x4, off: f32| {
+            between((x - self.first[0]) * per_mm + (1.0 + off), f32x4::ZERO, most).fast_trunc_int().to_array()
+        };
+        Four { first: place(low, -border), behind: place(high, border) }
+    }
+
+    /// Cells that are touched.
+    #[inline(always)]
+    pub(crate) fn touched(&self, reach: [f32x4; 2]) -> Four {
+        self.cells(reach, BORDER)
+    }
+
+    /// Cells where the low end is what counts.
+    #[inline(always)]
+    pub(crate) fn of_end(&self, own: [f32x4; 2]) -> Four {
+        self.cells(own, -BORDER)
+    }
+}
