@@ -47,6 +47,13 @@ pub const KEYS: &[Key] = &[
         takes: Takes::Folder,
         about: "Where translations go without `-o`. It is made where there is none.",
     },
+    Key {
+        name: "stock",
+        takes: Takes::Body,
+        about: "The raw part that `ncc simulate` cuts, in mm, from the work offset in which the program cuts first.",
+    },
+    Key { name: "fixtures", takes: Takes::Bodies, about: "What holds it, and nothing may touch; likewise." },
+    Key { name: "table", takes: Takes::Number, about: "Z of the table, mm; likewise." },
 ];
 
 /// A project file that has been read and checked.
@@ -69,6 +76,12 @@ pub struct Programs {
     pub include: Vec<Spanned<String>>,
     /// The folder of the outputs.
     pub output: Option<Spanned<String>>,
+    /// The raw part, as it is written.
+    pub stock: Option<Spanned<String>>,
+    /// Fixtures, as they are written.
+    pub fixtures: Vec<Spanned<String>>,
+    /// Z of the table, mm.
+    pub table: Option<Spanned<f64>>,
 }
 
 /// A pattern of file names, relative to the folder of the file. Small letters count as capitals.
@@ -191,6 +204,10 @@ struct Row {
     #[serde(default)]
     include: Texts,
     output: Option<Spanned<String>>,
+    stock: Option<Spanned<String>>,
+    #[serde(default)]
+    fixtures: Texts,
+    table: Option<Spanned<f64>>,
 }
 
 impl Row {
@@ -233,7 +250,16 @@ impl Row {
             let why = PatternFault::NoneInList;
             wrong.push(ProfileError::new(Wrong::Pattern { why }, self.files.span));
         }
-        Programs { files, machine: from, to, include: self.include.texts, output: self.output }
+        Programs {
+            files,
+            machine: from,
+            to,
+            include: self.include.texts,
+            output: self.output,
+            stock: self.stock,
+            fixtures: self.fixtures.texts,
+            table: self.table,
+        }
     }
 }
 

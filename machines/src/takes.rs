@@ -63,6 +63,10 @@ pub enum Takes {
     Folder,
     /// A folder, or several.
     Folders,
+    /// A body: by coordinates, or a file of triangles.
+    Body,
+    /// A body, or several.
+    Bodies,
 }
 
 impl Takes {

@@ -214,6 +214,13 @@ pub enum Wrong {
         /// The folder, as the file names it.
         name: String,
     },
+    /// A text of a project file that states no body.
+    NoBody {
+        /// The text.
+        text: String,
+        /// Whether it has the form of one, but a range is none.
+        is_range: bool,
+    },
 }
 
 impl Wrong {
@@ -240,6 +247,7 @@ impl Wrong {
             Wrong::NoRows => 718,
             Wrong::NoFolder { .. } => 719,
             Wrong::UnusedSource { .. } => 720,
+            Wrong::NoBody { .. } => 721,
         }
     }
 
@@ -247,5 +255,5 @@ impl Wrong {
     pub const CODES: &'static [u16] = &[701, 702, 703, 704, 705, 706, 707, 708, 709, 710, 711, 712, 713, 720];
 
     /// Every code of a project file that is none of a profile.
-    pub const PROJECT_CODES: &'static [u16] = &[714, 715, 716, 717, 718, 719];
+    pub const PROJECT_CODES: &'static [u16] = &[714, 715, 716, 717, 718, 719, 721];
 }

@@ -97,6 +97,13 @@ fn lines(row: &InForce) -> Vec<Line> {
     if let Some(folder) = &row.output {
         all.push(("output".to_owned(), folder.value.0.clone(), place(folder.line)));
     }
+    let bodies = row.stock.iter().map(|body| ("stock", body));
+    for (key, body) in bodies.chain(row.fixtures.iter().map(|body| ("fixtures", body))) {
+        all.push((key.to_owned(), body.value.0.clone(), place(body.line)));
+    }
+    if let Some(table) = &row.table {
+        all.push(("table".to_owned(), table.value.to_string(), place(table.line)));
+    }
     all
 }
 

@@ -7,6 +7,7 @@ use std::{fs, io};
 use codespan_reporting::diagnostic::Severity;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::simulate::raw::{self, NoBody};
 use ncc_machines::project::{MachineRef, NAME, Programs, Project};
 use ncc_machines::{Profile, ProfileError, Wrong, shipped};
 use sha2::{Digest, Sha256};
@@ -208,7 +209,13 @@ impl Loaded {
             (!there).then(|| ProfileError::new(Wrong::NoFolder { name: name.get_ref().clone() }, name.span()))
         };
         let folders = row.include.iter().filter_map(folder);
-        machine(&row.machine).into_iter().chain(machine(&row.to)).chain(folders).collect()
+        let body = |text: &Spanned<String>| {
+            let fault = raw::stated(text.get_ref()).err()?;
+            let wrong = Wrong::NoBody { text: text.get_ref().clone(), is_range: fault == NoBody::Range };
+            Some(ProfileError::new(wrong, text.span()))
+        };
+        let bodies = row.stock.iter().chain(&row.fixtures).filter_map(body);
+        machine(&row.machine).into_iter().chain(machine(&row.to)).chain(folders).chain(bodies).collect()
     }
 
     fn is_machine(&self, name: &str) -> bool {
@@ -244,6 +251,13 @@ impl Loaded {
             value: (name.get_ref().clone(), self.at(name.get_ref())),
             line: self.line(name.span().start),
         };
+        let body = |text: &Spanned<String>| {
+            let stated = match raw::stated(text.get_ref()).ok()? {
+                raw::Stated::File(name) => raw::Stated::File(self.at(&name).display().to_string()),
+                shape @ raw::Stated::Shape(_) => shape,
+            };
+            Some(Value { value: (text.get_ref().clone(), stated), line: self.line(text.span().start) })
+        };
         let pattern = |pattern: &ncc_machines::project::Pattern| Value {
             value: pattern.text.get_ref().clone(),
             line: self.line(pattern.text.span().start),
@@ -254,6 +268,12 @@ impl Loaded {
             files: row.files.iter().map(pattern).collect(),
             include: row.include.iter().map(path).collect(),
             output: row.output.as_ref().map(path),
+            stock: row.stock.as_ref().and_then(body),
+            fixtures: row.fixtures.iter().filter_map(body).collect(),
+            table: row
+                .table
+                .as_ref()
+                .map(|table| Value { value: *table.get_ref(), line: self.line(table.span().start) }),
             file: Arc::clone(self),
         })
     }

@@ -19,7 +19,7 @@ pub(crate) mod projects;
 mod settle;
 
 pub(crate) use projects::{InForce, Projects};
-pub(crate) use settle::{Settled, Sides, Stated, settle};
+pub(crate) use settle::{Settled, Sides, Stated, goes_before, settle};
 use std::path::Path;
 use std::sync::Arc;
 

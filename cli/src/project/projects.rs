@@ -10,6 +10,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
+use ncc_driver::simulate::raw;
 use ncc_machines::Profile;
 use ncc_machines::project::Project;
 
@@ -74,4 +75,10 @@ pub(crate) struct InForce {
     pub(crate) include: Vec<Value<(String, PathBuf)>>,
     /// The folder of the outputs, likewise.
     pub(crate) output: Option<Value<(String, PathBuf)>>,
+    /// The raw part, as it is written and as it is read: a file's name is a path from the working folder.
+    pub(crate) stock: Option<Value<(String, raw::Stated)>>,
+    /// Fixtures, likewise.
+    pub(crate) fixtures: Vec<Value<(String, raw::Stated)>>,
+    /// Z of the table, mm.
+    pub(crate) table: Option<Value<f64>>,
 }

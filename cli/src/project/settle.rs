@@ -135,7 +135,7 @@ pub(crate) fn settle(
         }
         (Some(folder), Some(option)) if option != folder.value.1 => {
             let option = format!("-o {}", option.display());
-            used.overridden.push(before(&option, row, "output", &folder.value.0, folder.line));
+            used.overridden.push(goes_before(&option, row, "output", &folder.value.0, folder.line));
             None
         }
         (Some(_) | None, _) => None,
@@ -145,7 +145,8 @@ pub(crate) fn settle(
     Ok(Settled { machine, to, include, output, used: Arc::new(used) })
 }
 
-fn before(option: &str, row: &InForce, key: &str, value: &str, line: usize) -> String {
+/// That an option goes before a fact of the file.
+pub(crate) fn goes_before(option: &str, row: &InForce, key: &str, value: &str, line: usize) -> String {
     format!("{option} goes before {key} = {value} ({}:{line})", row.file.shown)
 }
 
@@ -176,14 +177,14 @@ impl Side<'_> {
                     "to" => format!("--machine-to {machine}"),
                     _ => format!("the machine {machine} of the command line"),
                 };
-                used.overridden.push(before(&option, row, self.key, &name, own.line));
+                used.overridden.push(goes_before(&option, row, self.key, &name, own.line));
             }
             return None;
         }
         if let Some(dialect) = self.dialect.filter(|dialect| dialect.id != own.profile.dialect.id) {
             let colon = if self.dialect_option.is_empty() { ":" } else { "" };
             let option = format!("{}{}{colon}", self.dialect_option, dialect.id);
-            used.overridden.push(before(&option, row, self.key, &name, own.line));
+            used.overridden.push(goes_before(&option, row, self.key, &name, own.line));
             return None;
         }
         let value = match &own.named {
@@ -198,7 +199,7 @@ impl Side<'_> {
                 Some(_) => own.line,
                 None => row.file.line(at),
             };
-            used.overridden.push(before(&option, row, &format!("{}.{key}", self.key), value, line));
+            used.overridden.push(goes_before(&option, row, &format!("{}.{key}", self.key), value, line));
         };
         if let (Some(units), Some(stated)) = (self.units, profile.schema.power_on.units.get()) {
             let (option, same) = match units {

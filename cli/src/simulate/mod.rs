@@ -29,6 +29,7 @@ use ncc_simulate::{Fixture, HeightMap, Look, Stock};
 use self::args::{Moment, Simulate, ViewName};
 use crate::files::{self, Destination};
 use crate::milling::{self, Voice};
+use crate::project;
 use crate::registry::DialectRegistry;
 use crate::time::{self, Shop, args::Time};
 
@@ -56,12 +57,13 @@ pub(crate) fn run(
     }
     let Some(file) = &args.file else { return Ok(Exit::Usage) };
     let outputs = outputs(args)?;
-    guard(args, file)?;
+    let set_up = SetUp::of(args, file, known, err)?;
+    guard(args, file, &set_up)?;
     let bench = Bench {
-        guessed: args.stock.is_none(),
-        stock: args.stock.as_ref().map(body).transpose()?,
-        fixtures: args.fixture.iter().map(fixture).collect::<Result<_, _>>()?,
-        table: args.table,
+        guessed: set_up.stock.is_none(),
+        stock: set_up.stock.as_ref().map(body).transpose()?,
+        fixtures: set_up.fixtures.iter().map(fixture).collect::<Result<_, _>>()?,
+        table: set_up.table,
         cells: usize::from(args.cells),
     };
     let should = args.against.as_deref().map(triangles).transpose()?;
@@ -97,9 +99,53 @@ pub(crate) fn run(
     account(args, done, other, between, err)
 }
 
+/// What is on the machine, as the call states it, and else the project file of the program.
+struct SetUp {
+    stock: Option<raw::Stated>,
+    fixtures: Vec<raw::Stated>,
+    table: Option<f64>,
+}
+
+impl SetUp {
+    fn of(
+        args: &Simulate,
+        file: &Path,
+        known: &DialectRegistry,
+        err: &mut dyn WriteColor,
+    ) -> Result<SetUp, Problem> {
+        let mut own = SetUp { stock: args.stock.clone(), fixtures: args.fixture.clone(), table: args.table };
+        let Some(row) = project::row(file, false, known, err)? else { return Ok(own) };
+        let mut note = |option: &str, is_stated: bool, key: &str, value: String, line: usize| {
+            if !args.telling.quiet {
+                // What cannot be told changes nothing about what is done.
+                let _ = match is_stated {
+                    true => writeln!(err, "{}", project::goes_before(option, &row, key, &value, line)),
+                    false => writeln!(err, "{}: {}:{line}: {key} = {value}", file.display(), row.file.shown),
+                };
+            }
+        };
+        if let Some(stock) = &row.stock {
+            note("--stock", own.stock.is_some(), "stock", stock.value.0.clone(), stock.line);
+            own.stock.get_or_insert_with(|| stock.value.1.clone());
+        }
+        let stated = !own.fixtures.is_empty();
+        for fixture in &row.fixtures {
+            note("--fixture", stated, "fixtures", fixture.value.0.clone(), fixture.line);
+            if !stated {
+                own.fixtures.push(fixture.value.1.clone());
+            }
+        }
+        if let Some(table) = &row.table {
+            note("--table", own.table.is_some(), "table", table.value.to_string(), table.line);
+            own.table.get_or_insert(table.value);
+        }
+        Ok(own)
+    }
+}
+
 /// Files that are read are not written over, and none is written twice.
-fn guard(args: &Simulate, file: &Path) -> Result<(), Problem> {
-    let bodies = args.stock.iter().chain(&args.fixture).filter_map(|body| match body {
+fn guard(args: &Simulate, file: &Path, set_up: &SetUp) -> Result<(), Problem> {
+    let bodies = set_up.stock.iter().chain(&set_up.fixtures).filter_map(|body| match body {
         raw::Stated::File(name) => Some(Path::new(name)),
         raw::Stated::Shape(_) => None,
     });

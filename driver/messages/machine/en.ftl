@@ -51,3 +51,5 @@ machine-takes-patterns = a pattern, or a list of them
 machine-takes-machine = a profile's file, the name of a shipped profile, or a table with the keys of a profile
 machine-takes-folder = a folder
 machine-takes-folders = a folder, or a list of them
+machine-takes-body = a block, a cylinder along Z, or a file of triangles: `X0:100 Y0:60 Z-20:0`, `D50 X0 Y0 Z-30:0`, `raw.stl`
+machine-takes-bodies = such a body, or a list of them

@@ -43,6 +43,10 @@ fn message(wrong: &Wrong) -> Message {
             m.form("kind").text("found", quoted(found)).text("takes", takes_words(*takes))
         }
         Wrong::UnknownDialect { name } | Wrong::NoFolder { name } => m.text("name", name.as_str()),
+        Wrong::NoBody { text, is_range } => {
+            let m = if *is_range { m.form("range") } else { m };
+            m.text("text", text.as_str())
+        }
         Wrong::UnknownOption { option, has } => {
             let m = if has.is_empty() { m.form("none") } else { m };
             m.text("option", option.as_str())
@@ -104,6 +108,8 @@ pub fn takes_words(takes: Takes) -> String {
         Takes::Machine => part("takes-machine").headline(),
         Takes::Folder => part("takes-folder").headline(),
         Takes::Folders => part("takes-folders").headline(),
+        Takes::Body => part("takes-body").headline(),
+        Takes::Bodies => part("takes-bodies").headline(),
     }
 }
 
@@ -210,6 +216,8 @@ mod tests {
             Wrong::NoFile { pattern: s() },
             Wrong::NoRows,
             Wrong::NoFolder { name: s() },
+            Wrong::NoBody { text: s(), is_range: false },
+            Wrong::NoBody { text: s(), is_range: true },
         ];
         let mut codes: Vec<u16> = all.iter().map(Wrong::code).collect();
         codes.dedup();
