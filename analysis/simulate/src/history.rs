@@ -20,6 +20,8 @@ struct Changes {
     heights: Vec<f32>,
     /// The moves that cut them last, from the first of the stride.
     last: Vec<u16>,
+    /// Hollows of them.
+    hollows: Vec<(usize, Vec<[f32; 2]>)>,
 }
 
 impl Changes {
@@ -32,6 +34,8 @@ impl Changes {
             let rest = &map.last[first..end];
             let count = rest.iter().position(|last| *last <= before).unwrap_or(rest.len());
             self.runs.push((first as u32, count as u16));
+            let hollows = map.hollows.range(first..first + count);
+            self.hollows.extend(hollows.map(|(cell, own)| (cell, own.to_vec())));
             self.heights.extend_from_slice(&map.heights[first..first + count]);
             self.last.extend(rest[..count].iter().map(|last| (last - before - 1) as u16));
             first += count;
@@ -41,8 +45,12 @@ impl Changes {
     /// Puts them into a map; `before` moves were made before the stride.
     fn put_into(&self, map: &mut HeightMap, before: usize) {
         let mut at = 0;
+        let mut hollows = self.hollows.iter().peekable();
         for (first, count) in &self.runs {
             let (first, count) = (*first as usize, usize::from(*count));
+            let own =
+                std::iter::from_fn(|| hollows.next_if(|(cell, _)| (first..first + count).contains(cell)));
+            map.hollows.put_all(first..first + count, own.map(|(cell, own)| (*cell, own.as_slice())));
             map.heights[first..first + count].copy_from_slice(&self.heights[at..at + count]);
             let last = map.last[first..first + count].iter_mut().zip(&self.last[at..at + count]);
             last.for_each(|(own, last)| *own = (before + usize::from(*last) + 1) as u32);
@@ -132,7 +140,8 @@ impl History {
         } else {
             self.each_dirty(|base, cells| {
                 map.heights[cells.clone()].copy_from_slice(&base.heights[cells.clone()]);
-                map.last[cells.clone()].copy_from_slice(&base.last[cells]);
+                map.last[cells.clone()].copy_from_slice(&base.last[cells.clone()]);
+                map.hollows.put_all(cells.clone(), base.hollows.range(cells));
             });
         }
         while self.at < stride {

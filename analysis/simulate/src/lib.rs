@@ -8,15 +8,15 @@
 //! a block 100 × 60 × 20 mm, a flat end mill of 10 mm, G1 X50. at Z-2.    a slot, 2 mm deep; 500 mm³ a length of 25 mm
 //! ```
 //!
-//! A height map has one height a cell: the tool stands along Z, and cuts nothing from below. Tools that are wider higher up
-//! than lower down cut as they are; undercuts (T-slot cutters, lollipops) have no height and are refused by
-//! [`Cutter::new`].
+//! A height map has one height a cell: the tool stands along Z, and cuts nothing from below. What T-slot cutters and
+//! lollipops take under what stays is kept besides ([`Hollows`]).
 //!
 //! Not here: reading programs, executing and timing them, files, pictures, any dialect's name.
 
 mod alarm;
 mod band;
 mod history;
+mod hollows;
 mod level_arc;
 mod map;
 mod mesh;
@@ -28,8 +28,10 @@ mod stock;
 mod surface;
 mod sweep;
 mod tool;
+mod under;
 
 pub use alarm::{Alarm, AlarmKind};
+pub use hollows::Hollows;
 pub use map::{Grid, HeightMap};
 pub use mesh::{Triangle, mesh, rasterise};
 pub use moves::{Move, Way};

@@ -1,5 +1,7 @@
 //! Heights of material over a grid of square cells.
 
+use crate::hollows::Hollows;
+
 /// Where the cells of a map are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
@@ -82,11 +84,18 @@ pub struct HeightMap {
     pub heights: Vec<f32>,
     /// Number of the move that made the height, counted from 1; 0 where none did.
     pub last: Vec<u32>,
+    /// Where there is no material under these heights.
+    pub hollows: Hollows,
 }
 
 impl Clone for HeightMap {
     fn clone(&self) -> HeightMap {
-        HeightMap { grid: self.grid, heights: self.heights.clone(), last: self.last.clone() }
+        HeightMap {
+            grid: self.grid,
+            heights: self.heights.clone(),
+            last: self.last.clone(),
+            hollows: self.hollows.clone(),
+        }
     }
 
     /// Into the memory that is there: maps are large.
@@ -94,6 +103,7 @@ impl Clone for HeightMap {
         self.grid = other.grid;
         self.heights.clone_from(&other.heights);
         self.last.clone_from(&other.last);
+        self.hollows.clone_from(&other.hollows);
     }
 }
 
@@ -103,7 +113,12 @@ impl HeightMap {
 
     /// A map with one height.
     pub fn flat(grid: Grid, height: f32) -> HeightMap {
-        HeightMap { grid, heights: vec![height; grid.len()], last: vec![0; grid.len()] }
+        HeightMap {
+            grid,
+            heights: vec![height; grid.len()],
+            last: vec![0; grid.len()],
+            hollows: Hollows::default(),
+        }
     }
 
     /// The height at a place; `None` outside.
@@ -120,6 +135,7 @@ impl HeightMap {
     /// Volume of the material above a level, mm³.
     pub fn volume_above(&self, level: f64) -> f64 {
         let area = self.grid.cell * self.grid.cell;
-        self.heights.iter().map(|height| (f64::from(*height) - level).max(0.0)).sum::<f64>() * area
+        let columns = self.heights.iter().map(|height| (f64::from(*height) - level).max(0.0)).sum::<f64>();
+        (columns - self.hollows.length_above(level)) * area
     }
 }

@@ -38,10 +38,15 @@ pub fn rasterise(triangles: &[Triangle], map: &mut HeightMap) {
 /// The body between a level and a map's heights, closed: corners at the centres of every `step`th cell. Where there is no
 /// material above the level, there is none of the body.
 ///
-/// Walls are as wide as the distance of these corners.
+/// Walls are as wide as the distance of these corners. A part with hollows is made of upright blocks instead, each as wide as
+/// `step` cells: its walls are steps.
 pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(Triangle)) {
     let [width, height] = map.grid.cells;
     let step = step.max(1);
+    if !map.hollows.is_empty() {
+        blocks(map, level, step, triangle);
+        return;
+    }
     let places = |cells: usize| -> Vec<usize> {
         let mut all: Vec<usize> = (0..cells).step_by(step).collect();
         if all.last() != Some(&(cells - 1)) {
@@ -98,6 +103,78 @@ pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(T
                 }
                 if d[2] > level {
                     triangle([a, c, d]);
+                }
+            }
+        }
+    }
+}
+
+/// The material of a cell above a level: from and to which heights, the lowest first.
+fn material(map: &HeightMap, cell: usize, level: f32) -> Vec<[f32; 2]> {
+    let (mut all, mut from) = (Vec::new(), level);
+    for [low, high] in map.hollows.of(cell) {
+        if *low > from {
+            all.push([from, *low]);
+        }
+        from = from.max(*high);
+    }
+    if map.heights[cell] > from {
+        all.push([from, map.heights[cell]]);
+    }
+    all
+}
+
+/// What of the first lies in none of the second; both lie apart, the lowest first.
+pub(crate) fn without(all: &[[f32; 2]], other: &[[f32; 2]]) -> Vec<[f32; 2]> {
+    let mut left = Vec::new();
+    for [low, high] in all {
+        let mut from = *low;
+        for [begin, end] in other.iter().filter(|[begin, end]| begin < high && end > low) {
+            if *begin > from {
+                left.push([from, *begin]);
+            }
+            from = from.max(*end);
+        }
+        if from < *high {
+            left.push([from, *high]);
+        }
+    }
+    left
+}
+
+/// The body as upright blocks: their tops and bottoms, and the walls where the next block has no material.
+fn blocks(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(Triangle)) {
+    let [width, height] = map.grid.cells;
+    let [columns, rows] = [width.div_ceil(step), height.div_ceil(step)];
+    // Of each block, the cell in its middle stands for all.
+    let middle = |n: usize, cells: usize| (n * step + step / 2).min(cells - 1);
+    let of = |i: usize, j: usize| material(map, middle(j, height) * width + middle(i, width), level);
+    let place = |axis: usize, n: usize, cells: usize| {
+        (map.grid.low[axis] + (n * step).min(cells) as f64 * map.grid.cell) as f32
+    };
+    let mut quad = |[a, b, c, d]: [[f32; 3]; 4]| {
+        triangle([a, b, c]);
+        triangle([a, c, d]);
+    };
+    for j in 0..rows {
+        let [y0, y1] = [j, j + 1].map(|n| place(1, n, height));
+        for i in 0..columns {
+            let [x0, x1] = [i, i + 1].map(|n| place(0, n, width));
+            let own = of(i, j);
+            for [low, high] in &own {
+                quad([[x0, y0, *high], [x1, y0, *high], [x1, y1, *high], [x0, y1, *high]]);
+                quad([[x0, y0, *low], [x0, y1, *low], [x1, y1, *low], [x1, y0, *low]]);
+            }
+            let beside = |is_there: bool, i: usize, j: usize| if is_there { of(i, j) } else { Vec::new() };
+            let walls = [
+                (beside(j > 0, i, j.wrapping_sub(1)), [x0, y0], [x1, y0]),
+                (beside(i + 1 < columns, i + 1, j), [x1, y0], [x1, y1]),
+                (beside(j + 1 < rows, i, j + 1), [x1, y1], [x0, y1]),
+                (beside(i > 0, i.wrapping_sub(1), j), [x0, y1], [x0, y0]),
+            ];
+            for (other, [ax, ay], [bx, by]) in walls {
+                for [low, high] in without(&own, &other) {
+                    quad([[ax, ay, low], [bx, by, low], [bx, by, high], [ax, ay, high]]);
                 }
             }
         }

@@ -12,6 +12,7 @@ use crate::stock::{Fixture, Stock};
 use crate::surface::{COUNT, Cells, LANES, Surface};
 use crate::sweep::{chords, sweep};
 use crate::tool::{Cutter, Tool};
+use crate::under::through;
 
 /// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
 const TOUCH: f32 = 0.001;
@@ -187,6 +188,11 @@ impl Simulation {
         if lowest(from, own) >= f64::from(self.highest) {
             return Cut::default();
         }
+        if tool.cutter.upper().is_some() {
+            let cut = cut_under(&mut self.map, &tool.cutter, from, own, number as u32 + 1);
+            self.history.touch(&cut.columns, &cut.rows);
+            return cut;
+        }
         let before = number.checked_sub(1).map(|before| &self.moves[before]);
         let continues = before.is_some_and(|before| before.tool == own.tool && before.way != Way::Away);
         let mut cutting = Cutting {
@@ -210,7 +216,11 @@ impl Simulation {
         let low = lowest(from, own);
         let mut found = Vec::new();
         if own.way == Way::Rapid && low < f64::from(self.highest) {
-            found.extend(probe(&self.map, &body.cutter, from, own).map(|hit| (AlarmKind::Rapid, hit)));
+            let hit = match body.cutter.upper() {
+                Some(_) => probe_under(&self.map, &body.cutter, from, own),
+                None => probe(&self.map, &body.cutter, from, own),
+            };
+            found.extend(hit.map(|hit| (AlarmKind::Rapid, hit)));
         }
         if let Some(fixtures) = &self.fixtures {
             let parts = [Some(&body.cutter), body.shank.as_ref(), body.holder.as_ref()];
@@ -232,7 +242,10 @@ impl Simulation {
         let number = self.moves.len() as u32;
         let from = self.before(self.moves.len() - 1);
         let depth = cut.removed.depth;
-        let over = self.setup.tools[own.tool].flute.map_or(0.0, |flute| depth - flute as f32);
+        let is_on_neck = self.bodies[own.tool].cutter.upper().is_some();
+        // What a tool on a neck takes is never longer than it is.
+        let flute = self.setup.tools[own.tool].flute.filter(|_| !is_on_neck);
+        let over = flute.map_or(0.0, |flute| depth - flute as f32);
         let faults = [
             (AlarmKind::Stopped, if own.turns || own.way == Way::Rapid { 0.0 } else { depth }),
             (AlarmKind::Flute, over),
@@ -340,6 +353,20 @@ struct Cutting<'m> {
 }
 
 impl Cutting<'_> {
+    /// As [`Cells::row`], cell by cell.
+    #[cold]
+    fn row_with_hollows(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+        let start = row * self.map.grid.cells[0];
+        for first in columns.clone().step_by(LANES) {
+            let new = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
+            for (column, new) in (first..columns.end).zip(new) {
+                let taken = take(self.map, start + column, [new, f32::INFINITY], self.number);
+                self.cells += f64::from(taken);
+                self.cut.removed.depth = self.cut.removed.depth.max(taken);
+            }
+        }
+    }
+
     /// Adds what was removed since the last time: single precision is fine enough for so much.
     fn add_up(&mut self) {
         let Sums { volumes, depths } = std::mem::take(&mut self.sums);
@@ -398,6 +425,10 @@ impl Cells for Cutting<'_> {
 
     #[inline(always)]
     fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+        if !self.map.hollows.is_empty() {
+            self.row_with_hollows(row, columns, surface);
+            return;
+        }
         let start = row * self.map.grid.cells[0];
         let (begin, end) = (start + columns.start, start + columns.end);
         let (heights, last) = (&mut self.map.heights[begin..end], &mut self.map.last[begin..end]);
@@ -431,6 +462,50 @@ impl Cells for Cutting<'_> {
         }
         self.sums = sums;
     }
+}
+
+/// Takes the material of a cell between two heights; gives how much that was.
+fn take(map: &mut HeightMap, cell: usize, between: [f32; 2], number: u32) -> f32 {
+    let top = &mut map.heights[cell];
+    if between[0] >= *top {
+        return 0.0;
+    }
+    let (new, taken) = map.hollows.take(cell, *top, between);
+    if taken > 0.0 {
+        (*top, map.last[cell]) = (new, number);
+    }
+    taken
+}
+
+/// Cuts with a tool that cuts under what stays.
+fn cut_under(map: &mut HeightMap, cutter: &Cutter, from: [f64; 3], own: &Move, number: u32) -> Cut {
+    let (mut cut, mut all) = (Cut::default(), 0.0);
+    let (grid, width) = (map.grid, map.grid.cells[0]);
+    through(grid, cutter, from, own.end, &own.way, &mut |cell, between| {
+        let taken = take(map, cell, between, number);
+        if taken > 0.0 {
+            let [row, column] = [cell / width, cell % width];
+            cut.reaches(&(row..row + 1), &(column..column + 1));
+            all += f64::from(taken);
+            cut.removed.depth = cut.removed.depth.max(taken);
+        }
+    });
+    cut.removed.volume = (all * grid.cell * grid.cell) as f32;
+    cut
+}
+
+/// As [`probe`], of a tool that is thinner above.
+fn probe_under(map: &HeightMap, cutter: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
+    let (grid, mut worst) = (map.grid, None::<Hit>);
+    through(grid, cutter, from, own.end, &own.way, &mut |cell, between| {
+        let depth = map.hollows.material(cell, map.heights[cell], between);
+        if depth > worst.map_or(TOUCH, |worst| worst.depth) {
+            let [row, column] = [cell / grid.cells[0], cell % grid.cells[0]];
+            let place = [grid.centre(0, column), grid.centre(1, row), f64::from(between[0])];
+            worst = Some(Hit { place, depth });
+        }
+    });
+    worst
 }
 
 /// Where something is in the way.

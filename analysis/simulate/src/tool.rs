@@ -42,7 +42,7 @@ pub enum Shape {
     ),
     /// Ball on a thinner neck.
     Lollipop,
-    /// Disc on a thinner neck.
+    /// Disc on a thinner neck, as thick as its flutes are long.
     TSlot,
 }
 
@@ -58,15 +58,17 @@ pub enum CutterFault {
         /// Radius of the tool, mm.
         radius: f64,
     },
-    /// It is wider below than above: it cuts under what stays, which one height a cell cannot hold.
+    /// A profile that becomes thinner upwards: it would cut under what stays.
     Undercut,
 }
 
-/// The surface that a turning tool has below.
+/// The surface that a turning tool has below, and above where it cuts under what stays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cutter {
     bands: Vec<Band>,
     radius: f64,
+    /// Its upper surface, as a tool upside down of which the tip is where the tip of this one is.
+    upper: Option<Box<Cutter>>,
 }
 
 impl Cutter {
@@ -112,21 +114,36 @@ impl Cutter {
                 tapered(radius, corner, side, above_zero("flute", flute)?)
             }
             Shape::Profile(points) => profiled(points)?,
-            Shape::Lollipop | Shape::TSlot => return Err(CutterFault::Undercut),
+            Shape::Lollipop => vec![Band { inner: 0.0, outer: radius, base: 0.0, form: Form::Round(radius) }],
+            Shape::TSlot => vec![Band::flat(radius, 0.0)],
+        };
+        let upper = match shape {
+            Shape::Lollipop => {
+                Some(Band { inner: 0.0, outer: radius, base: -2.0 * radius, form: Form::Round(radius) })
+            }
+            Shape::TSlot => Some(Band::flat(radius, -above_zero("flute", flute)?)),
+            _ => None,
         };
         let radius = bands.iter().map(|band| band.outer).fold(0.0, f64::max);
-        Ok(Cutter { bands, radius })
+        let upper = upper.map(|band| Box::new(Cutter { bands: vec![band], radius, upper: None }));
+        Ok(Cutter { bands, radius, upper })
+    }
+
+    /// Its upper surface, as a tool upside down, of one that cuts under what stays.
+    pub(crate) fn upper(&self) -> Option<&Cutter> {
+        self.upper.as_deref()
     }
 
     /// The same with so much less radius.
     pub(crate) fn thinner(&self, by: f64) -> Cutter {
         let bands = self.bands.iter().map(|band| Band { outer: (band.outer - by).max(0.0), ..*band });
-        Cutter { bands: bands.collect(), radius: (self.radius - by).max(0.0) }
+        let upper = self.upper.as_ref().map(|upper| Box::new(upper.thinner(by)));
+        Cutter { bands: bands.collect(), radius: (self.radius - by).max(0.0), upper }
     }
 
     /// A cylinder that begins so high above the tip: a shank, a holder.
     pub(crate) fn cylinder(radius: f64, base: f64) -> Cutter {
-        Cutter { bands: vec![Band::flat(radius, base)], radius }
+        Cutter { bands: vec![Band::flat(radius, base)], radius, upper: None }
     }
 
     /// Its largest radius, mm.
