@@ -210,7 +210,11 @@ words! {
         /// A cone.
         Chamfer,
         /// A cone that grows upwards from an end with or without round corners.
-        Taper
+        Taper,
+        /// A ball on a thinner neck.
+        Lollipop,
+        /// A disc on a thinner neck.
+        TSlot
     }
     /// What an M code does to the cut.
     Effect {
@@ -347,8 +351,8 @@ table! {
         radius_entry: u32 = Takes::WholeAboveZero;
         /// Its diameter, mm.
         diameter: f64 = Takes::FromZero;
-        /// The shape of what cuts: of end mills, face mills, reamers and taps `flat`, `ball` or `bull-nose`; of drills, spot drills and countersinks `drill`; `chamfer` of a cone that ends flat or in a point; `taper` of an end mill that grows upwards. Where not stated, a simulation guesses it.
-        shape: ShapeName = Takes::OneOf(&["flat", "ball", "bull-nose", "drill", "chamfer", "taper"]);
+        /// The shape of what cuts: of end mills, face mills, reamers and taps `flat`, `ball` or `bull-nose`; of drills, spot drills and countersinks `drill`; `chamfer` of a cone that ends flat or in a point; `taper` of an end mill that grows upwards; `lollipop` of a ball on a thinner neck, `t-slot` of a disc on one, as thick as `flute` says. Where not stated, a simulation guesses it.
+        shape: ShapeName = Takes::OneOf(&["flat", "ball", "bull-nose", "drill", "chamfer", "taper", "lollipop", "t-slot"]);
         /// Radius of the corners of a bull nose or a taper, mm.
         corner: f64 = Takes::FromZero;
         /// Full angle of the point of a drill or of a chamfer mill; of a taper the angle between axis and side. Degrees.
@@ -357,7 +361,7 @@ table! {
         end_diameter: f64 = Takes::FromZero;
         /// Length of what cuts, from the tip, mm.
         flute: f64 = Takes::AboveZero;
-        /// Diameter of the shank above the flutes, mm; it counts with `flute`.
+        /// Diameter of the shank above the flutes, mm; it counts with `flute`, and is the neck of a lollipop or T-slot cutter.
         shank: f64 = Takes::AboveZero;
         /// Diameter of the holder, mm; it counts with `holder_from`.
         holder: f64 = Takes::AboveZero;

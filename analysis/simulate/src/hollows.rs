@@ -87,7 +87,8 @@ impl Hollows {
     /// What of them lies above a level, along Z, of all cells together, mm.
     pub(crate) fn length_above(&self, level: f64) -> f64 {
         let above = |[low, high]: &[f32; 2]| (f64::from(*high) - f64::from(*low).max(level)).max(0.0);
-        self.cells.values().flatten().map(above).sum()
+        // Not `sum`, which makes nothing less than nothing of none.
+        self.cells.values().flatten().map(above).fold(0.0, |all, own| all + own)
     }
 
     fn put(&mut self, cell: usize, own: Vec<[f32; 2]>) {
@@ -96,6 +97,24 @@ impl Hollows {
             false => drop(self.cells.insert(cell, own)),
         }
     }
+}
+
+/// What of the first lies in none of the second; both lie apart, the lowest first.
+pub fn without(all: &[[f32; 2]], other: &[[f32; 2]]) -> Vec<[f32; 2]> {
+    let mut left = Vec::new();
+    for [low, high] in all {
+        let mut from = *low;
+        for [begin, end] in other.iter().filter(|[begin, end]| begin < high && end > low) {
+            if *begin > from {
+                left.push([from, *begin]);
+            }
+            from = from.max(*end);
+        }
+        if from < *high {
+            left.push([from, *high]);
+        }
+    }
+    left
 }
 
 fn length(all: &[[f32; 2]]) -> f32 {

@@ -31,7 +31,7 @@ mod tool;
 mod under;
 
 pub use alarm::{Alarm, AlarmKind};
-pub use hollows::Hollows;
+pub use hollows::{Hollows, without};
 pub use map::{Grid, HeightMap};
 pub use mesh::{Triangle, mesh, rasterise};
 pub use moves::{Move, Way};

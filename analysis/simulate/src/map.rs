@@ -132,6 +132,26 @@ impl HeightMap {
         self.heights.iter().copied().fold(HeightMap::NOTHING, f32::max)
     }
 
+    /// The material of a cell above a level: from and to which heights, the lowest first.
+    pub fn material(&self, cell: usize, level: f32) -> Vec<[f32; 2]> {
+        let (mut all, mut from) = (Vec::new(), level);
+        for [low, high] in self.hollows.of(cell) {
+            if *low > from {
+                all.push([from, *low]);
+            }
+            from = from.max(*high);
+        }
+        if self.heights[cell] > from {
+            all.push([from, self.heights[cell]]);
+        }
+        all
+    }
+
+    /// Volume of the hollows above a level, mm³.
+    pub fn hollows_above(&self, level: f64) -> f64 {
+        self.hollows.length_above(level) * self.grid.cell * self.grid.cell
+    }
+
     /// Volume of the material above a level, mm³.
     pub fn volume_above(&self, level: f64) -> f64 {
         let area = self.grid.cell * self.grid.cell;

@@ -1,5 +1,6 @@
 //! Triangles: from a map, and onto one.
 
+use crate::hollows::without;
 use crate::map::HeightMap;
 
 /// Three corners, X Y Z in mm; counterclockwise as seen from outside.
@@ -109,46 +110,13 @@ pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(T
     }
 }
 
-/// The material of a cell above a level: from and to which heights, the lowest first.
-fn material(map: &HeightMap, cell: usize, level: f32) -> Vec<[f32; 2]> {
-    let (mut all, mut from) = (Vec::new(), level);
-    for [low, high] in map.hollows.of(cell) {
-        if *low > from {
-            all.push([from, *low]);
-        }
-        from = from.max(*high);
-    }
-    if map.heights[cell] > from {
-        all.push([from, map.heights[cell]]);
-    }
-    all
-}
-
-/// What of the first lies in none of the second; both lie apart, the lowest first.
-pub(crate) fn without(all: &[[f32; 2]], other: &[[f32; 2]]) -> Vec<[f32; 2]> {
-    let mut left = Vec::new();
-    for [low, high] in all {
-        let mut from = *low;
-        for [begin, end] in other.iter().filter(|[begin, end]| begin < high && end > low) {
-            if *begin > from {
-                left.push([from, *begin]);
-            }
-            from = from.max(*end);
-        }
-        if from < *high {
-            left.push([from, *high]);
-        }
-    }
-    left
-}
-
 /// The body as upright blocks: their tops and bottoms, and the walls where the next block has no material.
 fn blocks(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(Triangle)) {
     let [width, height] = map.grid.cells;
     let [columns, rows] = [width.div_ceil(step), height.div_ceil(step)];
     // Of each block, the cell in its middle stands for all.
     let middle = |n: usize, cells: usize| (n * step + step / 2).min(cells - 1);
-    let of = |i: usize, j: usize| material(map, middle(j, height) * width + middle(i, width), level);
+    let of = |i: usize, j: usize| map.material(middle(j, height) * width + middle(i, width), level);
     let place = |axis: usize, n: usize, cells: usize| {
         (map.grid.low[axis] + (n * step).min(cells) as f64 * map.grid.cell) as f32
     };

@@ -64,7 +64,7 @@ pub struct Simulate {
         help_heading = "What is on the machine"
     )]
     pub table: Option<f64>,
-    /// A tool: number (`start` is the one in the spindle at the start), shape (flat, ball, bull-nose, drill, chamfer, taper), diameter, and any of corner, angle,
+    /// A tool: number (`start` is the one in the spindle at the start), shape (flat, ball, bull-nose, drill, chamfer, taper, lollipop, t-slot), diameter, and any of corner, angle,
     /// end_diameter, flute, shank, holder, holder_from: `4=drill,6.8,angle=118` [default: the profile's; then what
     /// comments of CAM systems say; then a guess; may be repeated]
     #[arg(long, value_name = "TOOL", value_parser = tool, help_heading = "What is on the machine")]

@@ -6,6 +6,8 @@ simulate-of = { $program } ({ $dialect }): { $alarms ->
     }
 simulate-raw = raw part
 simulate-removed = removed
+simulate-under = undercut
+simulate-under-volume = { $volume } mm³ taken under what stays: pictures do not show it
 simulate-time = time
 simulate-cells = cells
 simulate-block = X{ $x0 } to { $x1 }, Y{ $y0 } to { $y1 }, Z{ $z0 } to { $z1 }
@@ -40,7 +42,7 @@ simulate-no-cutter = tool { $tool }: { $name } { $value } is not possible
     .help = state the tool: `--tool { $tool }=flat,10`
 simulate-no-cutter-corner = tool { $tool }: corners of { $corner } mm on a radius of { $radius } mm
     .help = state the tool: `--tool { $tool }=bull-nose,10,corner=1`
-simulate-undercut = tool { $tool } is wider below than above, which cannot be simulated yet
+simulate-undercut = tool { $tool } becomes thinner upwards: only a lollipop or a T-slot cutter may
     .help = simulate the program without it
 simulate-shape-flat = flat
 simulate-shape-ball = ball

@@ -14,6 +14,12 @@ use ncc_machines::schema::ShapeName;
 
 /// Words for shapes, in capitals; the first that a comment has counts. Words in other languages are read by `CR` alone.
 const SHAPES: &[(&str, ShapeName)] = &[
+    ("LOLLIPOP", ShapeName::Lollipop),
+    ("T-SLOT", ShapeName::TSlot),
+    ("T SLOT", ShapeName::TSlot),
+    ("TSLOT", ShapeName::TSlot),
+    ("WOODRUFF", ShapeName::TSlot),
+    ("KEYSEAT", ShapeName::TSlot),
     ("BALL", ShapeName::Ball),
     ("BULL", ShapeName::BullNose),
     ("CHAMFER", ShapeName::Chamfer),
@@ -50,7 +56,16 @@ pub fn read(comment: &str) -> Option<(i64, Described)> {
     let words = text.replace("TAPER=", "");
     let named = SHAPES.iter().find(|(word, _)| words.contains(word)).map(|(_, shape)| *shape);
     let shape = match (named, corner) {
-        (Some(shape @ (ShapeName::Chamfer | ShapeName::Taper | ShapeName::Drill)), _) => Some(shape),
+        (
+            Some(
+                shape @ (ShapeName::Chamfer
+                | ShapeName::Taper
+                | ShapeName::Drill
+                | ShapeName::Lollipop
+                | ShapeName::TSlot),
+            ),
+            _,
+        ) => Some(shape),
         (_, Some(corner)) if corner > 0.0 && corner * 2.0 >= diameter => Some(ShapeName::Ball),
         (_, Some(corner)) if corner > 0.0 => Some(ShapeName::BullNose),
         // A taper on a tool without a name may be a drill's point or a mill's side.
@@ -64,7 +79,11 @@ pub fn read(comment: &str) -> Option<(i64, Described)> {
         angle: match name {
             ShapeName::Chamfer => taper.map(|half| 2.0 * half),
             ShapeName::Drill | ShapeName::Taper => taper,
-            ShapeName::Flat | ShapeName::Ball | ShapeName::BullNose => None,
+            ShapeName::Flat
+            | ShapeName::Ball
+            | ShapeName::BullNose
+            | ShapeName::Lollipop
+            | ShapeName::TSlot => None,
         },
         end_diameter: None,
     });
@@ -212,6 +231,8 @@ mod tests {
             ("T10 D=.5 CR=0. CENTER CUTTING END MILL", 10, 0.5, Some((ShapeName::Flat, None, None))),
             ("T11 D=8,5 CR=0,5 - end mill", 11, 8.5, Some((ShapeName::BullNose, Some(0.5), None))),
             ("T12 D=10, CR=0, drill", 12, 10.0, Some((ShapeName::Drill, None, None))),
+            ("T13 D=16. CR=0. - T-slot mill", 13, 16.0, Some((ShapeName::TSlot, None, None))),
+            ("T14 D=10. CR=5. - lollipop mill", 14, 10.0, Some((ShapeName::Lollipop, None, None))),
             ("TOOL - 2 DIA. OFF. - 2 LEN. - 2 DIA. - 10.", 2, 10.0, None),
         ];
         for (text, tool, diameter, own) in cases {

@@ -4,7 +4,7 @@
 //! At a wall, a thousandth of a millimetre decides on which side of it the centre of a cell is. So a height is another one
 //! only where it is beyond those of all cells around: walls are compared to the width of a cell. Volumes are of each cell.
 
-use ncc_simulate::HeightMap;
+use ncc_simulate::{HeightMap, without};
 
 /// What lies between two parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,6 +29,9 @@ impl Between {
         let mut between = Between::default();
         let width = one.grid.cells[0];
         let area = one.grid.cell * one.grid.cell;
+        if !(one.hollows.is_empty() && other.hollows.is_empty()) {
+            return Between::with_hollows(one, other, floor);
+        }
         for (n, (a, b)) in one.heights.iter().zip(&other.heights).enumerate() {
             let by = f64::from(a.max(floor)) - f64::from(b.max(floor));
             let place = || [one.grid.centre(0, n % width), one.grid.centre(1, n / width)];
@@ -54,6 +57,41 @@ impl Between {
         between
     }
 
+    /// As [`Between::of`], of parts of which one has hollows: what lies in one cell must be of none of those around.
+    fn with_hollows(one: &HeightMap, other: &HeightMap, floor: f32) -> Between {
+        let mut between = Between::default();
+        let width = one.grid.cells[0];
+        let area = one.grid.cell * one.grid.cell;
+        let length = |all: &[[f32; 2]]| all.iter().map(|[low, high]| f64::from(high - low)).sum::<f64>();
+        for cell in 0..one.heights.len() {
+            let [own, its] = [one, other].map(|map| map.material(cell, floor));
+            if own == its {
+                continue;
+            }
+            let [more, less] = [without(&own, &its), without(&its, &own)];
+            between.more += length(&more) * area;
+            between.less += length(&less) * area;
+            let place = [one.grid.centre(0, cell % width), one.grid.centre(1, cell / width)];
+            for (mut left, most, is_there) in
+                [(more, &mut between.highest, true), (less, &mut between.deepest, false)]
+            {
+                for near in beside(other, cell) {
+                    let material = other.material(near, floor);
+                    // What the first has too much no cell around may have; what it lacks each of them must have.
+                    left = match is_there {
+                        true => without(&left, &material),
+                        false => without(&left, &without(&left, &material)),
+                    };
+                }
+                let longest = left.iter().map(|[low, high]| f64::from(high - low)).fold(0.0, f64::max);
+                if longest > 0.0 && most.is_none_or(|(_, most)| longest > most) {
+                    *most = Some((place, longest));
+                }
+            }
+        }
+        between
+    }
+
     /// Whether no height differs by more than so much, mm.
     pub fn is_within(&self, tolerance: f64) -> bool {
         [self.highest, self.deepest].into_iter().flatten().all(|(_, by)| by <= tolerance)
@@ -62,16 +100,19 @@ impl Between {
 
 /// The least and the greatest height of a cell and those around it.
 fn around(map: &HeightMap, cell: usize, floor: f32) -> [f32; 2] {
+    beside(map, cell).fold([f32::INFINITY, f32::NEG_INFINITY], |range, near| {
+        let own = map.heights[near].max(floor);
+        [range[0].min(own), range[1].max(own)]
+    })
+}
+
+/// A cell and those around it.
+fn beside(map: &HeightMap, cell: usize) -> impl Iterator<Item = usize> {
     let [width, height] = map.grid.cells;
     let [column, row] = [cell % width, cell / width];
-    let mut range = [f32::INFINITY, f32::NEG_INFINITY];
-    for j in row.saturating_sub(1)..(row + 2).min(height) {
-        for i in column.saturating_sub(1)..(column + 2).min(width) {
-            let own = map.heights[j * width + i].max(floor);
-            range = [range[0].min(own), range[1].max(own)];
-        }
-    }
-    range
+    let columns = column.saturating_sub(1)..(column + 2).min(width);
+    (row.saturating_sub(1)..(row + 2).min(height))
+        .flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }
 
 #[cfg(test)]
@@ -96,5 +137,43 @@ mod tests {
         let deeper = Between::of(&step(4, -5.1), &step(4, -5.0), -10.0);
         assert!(!deeper.is_within(0.09) && deeper.is_within(0.11), "{deeper:?}");
         assert!(!Between::of(&step(4, -5.0), &flat(), -10.0).is_within(1.0));
+    }
+
+    #[test]
+    fn undercuts_are_compared_as_heights_are() {
+        use ncc_simulate::{Cutter, Move, Setup, Shape, Simulation, Stock, Tool, Way};
+        // A disc 2 mm thick that comes in from the left, so far and so high.
+        let under = |to: f64, z: f64| {
+            let cutter = Cutter::new(&Shape::TSlot, 4.0, 2.0).expect("a tool");
+            let tool =
+                Tool { number: 1, cutter, flute: Some(2.0), shank: None, holder: None, guessed: false };
+            let mut simulation = Simulation::new(Setup {
+                stock: Stock::Block { low: [0.0, 0.0, -10.0], high: [10.0, 10.0, 0.0] },
+                guessed: false,
+                cells: 10,
+                tools: vec![tool],
+                fixtures: Vec::new(),
+                table: None,
+                start: [-5.0, 5.0, z],
+            });
+            simulation.push(Move {
+                way: Way::Feed,
+                end: [to, 5.0, z],
+                tool: 0,
+                turns: true,
+                time: 0.0,
+                line: 0,
+            });
+            simulation.map().clone()
+        };
+        let (one, same) = (under(5.0, -6.0), under(5.0, -6.0));
+        assert!(Between::of(&one, &same, -10.0).is_within(0.0));
+        let farther = Between::of(&under(6.0, -6.0), &one, -10.0);
+        assert!(farther.is_within(0.0) && farther.more == 0.0 && farther.less > 0.0, "{farther:?}");
+        let much_farther = Between::of(&under(8.0, -6.0), &one, -10.0);
+        assert!(!much_farther.is_within(1.9) && much_farther.highest.is_none(), "{much_farther:?}");
+        let higher = Between::of(&under(5.0, -5.9), &one, -10.0);
+        assert!(!higher.is_within(0.09) && higher.is_within(0.11), "{higher:?}");
+        assert!(!Between::of(&HeightMap::flat(one.grid, 0.0), &one, -10.0).is_within(1.9));
     }
 }

@@ -57,6 +57,8 @@ struct Program<'a> {
     tools: Vec<Tool>,
     /// mm³.
     removed: f64,
+    /// mm³.
+    undercut: f64,
     alarms: Vec<Alarm>,
     assumed: &'a [String],
 }
@@ -213,6 +215,7 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
         },
         tools: tools.collect(),
         removed: milli(cut.volume()),
+        undercut: milli(cut.simulation.map().hollows_above(cut.simulation.setup().stock.extent()[0][2])),
         alarms: alarms.collect(),
         assumed: about.assumed,
     }

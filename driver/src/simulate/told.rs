@@ -335,6 +335,13 @@ pub fn write_account(
     let all = setup.stock.volume(setup.cells);
     let removed = words("of-raw").text("volume", decimal(cut.volume())).text("all", decimal(all));
     rows.push((words("removed").headline(), removed.headline()));
+    let under = cut.simulation.map().hollows_above(setup.stock.extent()[0][2]);
+    if under > 0.0 {
+        rows.push((
+            words("under").headline(),
+            words("under-volume").text("volume", decimal(under)).headline(),
+        ));
+    }
     let grid = cut.simulation.map().grid;
     let cells = words("grid")
         .text("columns", grid.cells[0].to_string())

@@ -19,6 +19,9 @@ const POINT: f64 = 118.0;
 const CHAMFER: f64 = 90.0;
 /// Angle between axis and side of a taper of which nothing is known, degrees.
 const TAPER: f64 = 5.0;
+/// Thickness of the disc of a T-slot cutter of which nothing is known, in parts of its diameter: those of DIN 851 have from
+/// 0.38 to 0.5.
+const DISC: f64 = 0.44;
 /// Length of what cuts for a taper without one, mm: it bounds how wide it is above.
 const LONG: f64 = 100.0;
 
@@ -103,9 +106,23 @@ fn fit(
         said.clone().unwrap_or(Shaped { name: guess, corner: None, angle: None, end_diameter: None });
     let diameter = own.diameter.filter(|diameter| *diameter > 0.0);
     let diameter = diameter.unwrap_or(if holes { DRILL } else { MILL });
-    let (shape, sure) = shape(&shaped, diameter);
+    let (shape, sure) = shape(&shaped, &own, diameter);
     let no_cutter = |fault| NoCutter { number: used.number, fault };
-    let cutter = Cutter::new(&shape, diameter, own.flute.unwrap_or(LONG)).map_err(no_cutter)?;
+    let shank = own.shank.map(|diameter| diameter / 2.0);
+    let flute = match shape {
+        Shape::TSlot => Some(own.flute.unwrap_or(diameter * DISC)),
+        // The ball ends where the neck is as thick.
+        Shape::Lollipop => shank.map(|neck| {
+            let radius = diameter / 2.0;
+            radius + (radius * radius - neck * neck).max(0.0).sqrt()
+        }),
+        _ => own.flute,
+    };
+    let is_on_neck = matches!(shape, Shape::TSlot | Shape::Lollipop);
+    if let Some(neck) = own.shank.filter(|neck| is_on_neck && *neck >= diameter) {
+        return Err(no_cutter(CutterFault::Value("shank", neck)));
+    }
+    let cutter = Cutter::new(&shape, diameter, flute.unwrap_or(LONG)).map_err(no_cutter)?;
     // A heading by hand may be about the part.
     let by_heading = matches!(known, Known::Comment(_)) && remark.is_some_and(|own| own.heading);
     let shape_guessed = said.is_none() || !sure || by_heading;
@@ -113,8 +130,8 @@ fn fit(
         tool: Tool {
             number: used.number,
             cutter,
-            flute: own.flute,
-            shank: own.shank.map(|diameter| diameter / 2.0),
+            flute,
+            shank,
             holder: own.holder.zip(own.holder_from).map(|(diameter, from)| [diameter / 2.0, from]),
             guessed: shape_guessed || known == Known::Guess,
         },
@@ -126,8 +143,10 @@ fn fit(
 }
 
 /// The kernel's shape, and whether nothing of it is a guess.
-fn shape(own: &Shaped, diameter: f64) -> (Shape, bool) {
+fn shape(own: &Shaped, tool: &Described, diameter: f64) -> (Shape, bool) {
     match own.name {
+        ShapeName::Lollipop => (Shape::Lollipop, true),
+        ShapeName::TSlot => (Shape::TSlot, tool.flute.is_some()),
         ShapeName::Flat => (Shape::Flat, true),
         ShapeName::Ball => (Shape::Ball, true),
         ShapeName::BullNose => {
@@ -208,6 +227,8 @@ pub fn stated(text: &str) -> Result<(i64, Described), NoTool> {
         "drill" => ShapeName::Drill,
         "chamfer" => ShapeName::Chamfer,
         "taper" => ShapeName::Taper,
+        "lollipop" => ShapeName::Lollipop,
+        "t-slot" => ShapeName::TSlot,
         _ => return Err(NoTool::Form),
     };
     let above_zero = |text: &str| {
@@ -234,8 +255,8 @@ pub fn stated(text: &str) -> Result<(i64, Described), NoTool> {
             return Err(NoTool::Form);
         }
     }
-    let whole =
-        (own.shank.is_none() || own.flute.is_some()) && own.holder.is_some() == own.holder_from.is_some();
+    let whole = (own.shank.is_none() || own.flute.is_some() || name == ShapeName::Lollipop)
+        && own.holder.is_some() == own.holder_from.is_some();
     own.shape = Some(shaped);
     if whole { Ok((number, own)) } else { Err(NoTool::Incomplete) }
 }
