@@ -45,6 +45,7 @@ pub mod guess;
 pub mod job;
 pub mod listing;
 pub mod machines;
+pub mod names;
 pub mod problem;
 pub mod provenance;
 pub mod questions;

@@ -87,7 +87,7 @@ fn stretches(dialect: &Dialect, line: &[u8], pieces: &[Piece], found: &mut Vec<(
 }
 
 /// Where a byte of a line is, in units of UTF-16; a text that is not UTF-8 has a unit for each byte.
-fn column(line: &[u8], byte: usize) -> usize {
+pub(crate) fn column(line: &[u8], byte: usize) -> usize {
     match line.is_ascii() {
         true => byte,
         false => std::str::from_utf8(line)

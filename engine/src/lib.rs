@@ -16,6 +16,7 @@
 //! The codes are the exit codes of the command line. Not here: any work of the compiler (`ncc_driver`).
 
 mod colours;
+mod editing;
 #[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
 pub mod interface;
 mod program;

@@ -15,7 +15,8 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "verb", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Request {
-    /// Translates a program. Outputs: `output` if it is released, `report`, `messages`.
+    /// Translates a program. Outputs: `output` if it is released, `report`, `messages`, and with `map`
+    /// `lines`: for each line of the output the first line of the source that it comes from, or 0 (u32, little-endian).
     Translate(Translate),
     /// Checks a program. Outputs: `findings` (the document of `ncc check --format json`), `messages`.
     Check(One),
@@ -32,11 +33,20 @@ pub enum Request {
     /// Lists the words of a dialect. Output: `document`: `words`, each with `kind`, `word`, `means`, `refused`, `sure` and
     /// `source`, and `sources` by their keys.
     Words(Words),
+    /// Lays a program out as `ncc fmt` does. Outputs: `output`, `messages`.
+    Layout(Layout),
+    /// Tells names and where they stand. Outputs: `document`, as `editing` has it, `messages`.
+    Names(One),
+    /// Gives a name another, at all its places or at none. Outputs: `output`, `messages`.
+    Rename(Rename),
+    /// Writes the answers for a program into a project file. Outputs: `output`, `messages`.
+    Project(Project),
     /// Lists the machines that come with ncc. Output: `document`, a list of objects with `id`, `title` and `dialect`.
     Machines(Nothing),
-    /// Executes a program. Outputs: `path`, its moves as columns of numbers (`ncc_driver::simulate::columns`), `messages`.
+    /// Executes a program. Outputs: `path`, its moves as columns of numbers (`ncc_driver::simulate::columns`), `modes`, what
+    /// is active in each block and at each move (`ncc_driver::simulate::modes`), `messages`.
     Path(One),
-    /// Cuts a program. Outputs: `document` (as of `ncc simulate --json`), `path`, and of the part at the end `heights` and
+    /// Cuts a program. Outputs: `document` (as of `ncc simulate --json`), `path`, `modes`, and of the part at the end `heights` and
     /// `last`: of each cell, rows of one Y, the height in mm (f32) and the move that cut last there (u32), little-endian;
     /// `messages`.
     Simulate(Simulate),
@@ -167,6 +177,108 @@ impl Simulate {
     }
 }
 
+/// Answers for a program.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Project {
+    /// As of [`Translate`].
+    pub file: String,
+    /// The project file among the files of the engine; without, there is none yet.
+    #[serde(default)]
+    pub project: Option<String>,
+    /// As of [`Translate`].
+    #[serde(default)]
+    pub from: Option<String>,
+    /// As of [`Translate`].
+    #[serde(default)]
+    pub to: Option<String>,
+    /// As of [`Translate`].
+    #[serde(default)]
+    pub machine_from: Option<String>,
+    /// As of [`Translate`].
+    #[serde(default)]
+    pub machine_to: Option<String>,
+    /// As of [`Translate`].
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// As of [`Translate`].
+    #[serde(default)]
+    pub to_option: BTreeMap<String, String>,
+}
+
+/// A program to be laid out.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Layout {
+    /// As of [`One`].
+    pub file: String,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub machine: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// First block number, and the step to the next; without, numbers stay as they are or as the machine has them.
+    #[serde(default)]
+    pub number: Option<[u32; 2]>,
+}
+
+impl Layout {
+    /// The program alone.
+    pub(crate) fn one(&self) -> One {
+        one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
+    }
+}
+
+/// A name of a program.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rename {
+    /// As of [`One`].
+    pub file: String,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub machine: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// A line where it stands, from 1.
+    pub line: usize,
+    /// A column of it, in units of UTF-16, from 0.
+    pub column: usize,
+    /// The new name.
+    pub to: String,
+}
+
+impl Rename {
+    /// The program alone.
+    pub(crate) fn one(&self) -> One {
+        one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
+    }
+}
+
+fn one(
+    file: &str,
+    from: Option<&String>,
+    machine: Option<&String>,
+    options: &BTreeMap<String, String>,
+) -> One {
+    One {
+        file: file.to_owned(),
+        from: from.cloned(),
+        machine: machine.cloned(),
+        from_option: options.clone(),
+        units: None,
+        assume_milling: false,
+    }
+}
+
 /// A moment of the program that was cut last.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -239,6 +351,9 @@ pub struct Translate {
     /// Whether it is left out that the output is verified; it says so then.
     #[serde(default)]
     pub no_verify: bool,
+    /// Whether it is wanted which line of the source each line of the output comes from.
+    #[serde(default)]
+    pub map: bool,
     /// Whether the comment at the top is left out.
     #[serde(default)]
     pub no_head: bool,

@@ -12,7 +12,8 @@ use ncc_driver::side::Side;
 use ncc_driver::simulate::compare::Between;
 use ncc_driver::simulate::cut::{Bench, CutProgram, cut};
 use ncc_driver::simulate::described::Described;
-use ncc_driver::simulate::path::{Path, Recorder};
+use ncc_driver::simulate::modes::Watched;
+use ncc_driver::simulate::path::Path;
 use ncc_driver::simulate::tooling::Fitted;
 use ncc_driver::simulate::{columns, document, files as parts, raw, told, tooling};
 use ncc_driver::source::Source;
@@ -50,6 +51,8 @@ impl Done {
 /// A program that was executed.
 struct Executed {
     path: Path,
+    /// Its modes as columns.
+    modes: Vec<u8>,
     source: Source,
     dialect: String,
     profile: Option<std::sync::Arc<Profile>>,
@@ -62,7 +65,8 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     let profile = profile(one.machine.as_deref(), files)?;
     let Side { mut source, job } = side(one, files, messages)?;
     let (plan, unstated) = plan(&job, profile.as_deref());
-    let mut recorder = Recorder::new(&plan.tables, false);
+    let acceleration = profile.as_deref().and_then(|profile| profile.machine().spindle_acceleration);
+    let mut recorder = Watched::new(&plan, acceleration);
     let course = drive(&plan, &mut source, &mut recorder, &mut Unwatched).map_err(cannot)?;
     let shown = source.shown.clone();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };
@@ -70,14 +74,15 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     if course.refused {
         return Ok(None);
     }
-    let path = recorder.finish();
+    let mut modes = Vec::new();
+    let path = recorder.finish(&mut modes).map_err(cannot)?;
     let mut assumed: Vec<String> = profile.as_deref().map(assumed::of_profile).unwrap_or_default();
     assumed.extend(assumed::of_machine(&plan, &unstated, &course));
     assumed.extend(assumed::of_run(&plan, &course));
     assumed.extend(assumed::of_program(&job, &course.diagnostics));
     assumed.extend(told::assumptions(&path, &plan.tables, &course));
     let dialect = job.from.dialect.id.clone();
-    Ok(Some(Executed { path, source, dialect, profile, assumed }))
+    Ok(Some(Executed { path, modes, source, dialect, profile, assumed }))
 }
 
 fn moves(path: &Path) -> Result<Vec<u8>, Problem> {
@@ -89,7 +94,7 @@ fn moves(path: &Path) -> Result<Vec<u8>, Problem> {
 /// The moves of a program.
 pub(crate) fn path(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let Some(executed) = execute(one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
-    Ok((Exit::Done, vec![("path", moves(&executed.path)?)]))
+    Ok((Exit::Done, vec![("path", moves(&executed.path)?), ("modes", executed.modes)]))
 }
 
 /// A body as it is stated; a file is one of the engine's.
@@ -129,18 +134,18 @@ pub(crate) fn simulate(
         cells: asked.cells.clamp(16, 8192),
     };
     let one = asked.one();
-    let Some(executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
-    let path = moves(&executed.path)?;
+    let Some(mut executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
+    let (path, modes) = (moves(&executed.path)?, std::mem::take(&mut executed.modes));
     let fitted = tooling::tools(&executed.path, &stated, executed.profile.as_deref())
         .map_err(|fault| told::no_cutter(&fault))?;
     let Some(done) = carry_out(&one, executed, fitted, bench.clone(), messages)? else {
         // Its way can be drawn all the same.
-        return Ok((Exit::Refused, vec![("path", path)]));
+        return Ok((Exit::Refused, vec![("path", path), ("modes", modes)]));
     };
     let mut all = vec![done];
     if let Some(other) = &asked.compare {
         let Some(other) = held_against(other, &all[0], &stated, bench, files, messages)? else {
-            return Ok((Exit::Refused, vec![("path", path)]));
+            return Ok((Exit::Refused, vec![("path", path), ("modes", modes)]));
         };
         all.push(other);
     }
@@ -155,7 +160,7 @@ pub(crate) fn simulate(
     let is_same = between.is_none_or(|between| between.is_within(TOLERANCE));
     let is_sound = is_same && !all.iter().any(|done| done.cut.has_sure_alarms());
     let done = all.swap_remove(0).cut;
-    let mut outputs = vec![("document", document), ("path", path)];
+    let mut outputs = vec![("document", document), ("path", path), ("modes", modes)];
     outputs.extend(part(done.simulation.map()));
     *kept = Some(Box::new(done));
     Ok((if is_sound { Exit::Done } else { Exit::Refused }, outputs))

@@ -13,6 +13,8 @@ use ncc_driver::job::options::choose;
 use ncc_driver::job::{Job, file_per_tool};
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
+use ncc_driver::provenance::pairs::pairs as line_pairs;
+use ncc_driver::provenance::trace::Asked;
 use ncc_driver::questions::Policy;
 use ncc_driver::render::{About, explain, report, tell};
 use ncc_driver::render::{Loudness, human};
@@ -26,12 +28,13 @@ use ncc_driver::side::Side;
 use ncc_driver::source::include_path::load_subprograms;
 use ncc_driver::time::drive::{Stage, Unwatched, drive};
 use ncc_driver::time::payload::{Header, Payload, Shape};
-use ncc_driver::translate::{rewrite, tools_by_name, translate};
+use ncc_driver::translate::{rewrite, tools_by_name, translate_recording};
 use ncc_ir::diag::Verdict;
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
 use crate::colours;
+use crate::editing;
 use crate::program::{Files, InMemory, Outputs, named, open, pairs, plan, profile, settings, side};
 use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};
 use crate::simulate::{self, Kept};
@@ -83,6 +86,10 @@ fn verb(
             let all: Vec<_> = ncc_machines::shipped().iter().map(machine).collect();
             Ok((Exit::Done, vec![("document", serde_json::to_vec_pretty(&all).unwrap_or_default())]))
         }
+        Request::Layout(asked) => editing::layout(asked, files, messages),
+        Request::Names(one) => editing::names(one, files, messages),
+        Request::Rename(asked) => editing::renamed(asked, files, messages),
+        Request::Project(asked) => editing::project(asked, files, messages),
         Request::Path(one) => simulate::path(one, files, messages),
         Request::Simulate(asked) => simulate::simulate(asked, files, kept, messages),
         Request::Seek(asked) => simulate::seek(*asked, kept),
@@ -163,7 +170,8 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     }
     tools_by_name::number(&mut job, &mut source.file).map_err(cannot)?;
     source.rewind()?;
-    let mut outcome = translate(&job, &mut source.file).map_err(cannot)?;
+    let recording = Asked { map: asked.map, annotate: false };
+    let (mut outcome, record) = translate_recording(&job, recording, &mut source.file).map_err(cannot)?;
     let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
     tell(messages, &mut about, &outcome, Loudness::Usual).map_err(cannot)?;
     let mut told = Vec::new();
@@ -171,6 +179,10 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     let mut outputs = vec![("report", told)];
     if outcome.release.is_ok() {
         outputs.insert(0, ("output", outcome.output.to_vec().map_err(cannot)?));
+        if let Some(record) = record {
+            let lines = line_pairs(&mut *source.file, &mut outcome, record).map_err(cannot)?;
+            outputs.push(("lines", lines.into_iter().flat_map(u32::to_le_bytes).collect()));
+        }
     }
     Ok((outcome.exit(), outputs))
 }

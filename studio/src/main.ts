@@ -1,6 +1,7 @@
 // The page put together: who tells whom.
 
 import { Editor } from "./editor/editor";
+import { Editing } from "./editor/editing";
 import { Outline } from "./editor/outline";
 import { ProblemList } from "./editor/problems";
 import type { Colours } from "./engine/documents";
@@ -53,12 +54,21 @@ const editor = new Editor(byId("editor"), {
     const from = session.project.get()?.choices.from ?? "auto";
     return session.words(from === "auto" ? session.dialect.get() : from);
   },
+  // Behind a change nothing is known of the text until it was executed again.
+  modes: (line) => (session.idle.get() ? session.path.get()?.modes?.ofLine(line) : undefined),
   changed: () => {
     desk.changed();
     session.change();
   },
-  cursor: (line) => machine.mark(line),
+  cursor: (line) => {
+    machine.mark(line);
+    translate.markSource(line);
+  },
+  goTo: () => void editing.goTo(),
+  rename: () => void editing.rename(),
+  layOut: () => void editing.layOut(),
 });
+const editing = new Editing(session, editor);
 const token = loopbackToken();
 const folder = token === undefined ? undefined : new Folder(token);
 const desk = new Desk(await Store.open(), session, editor, folder);
@@ -89,7 +99,7 @@ const machine = new MachinePane(player, (line) => {
   editor.goTo(line);
   panes.show("machine", document.body.dataset.pane === "machine" ? "machine" : "editor");
 });
-new TranslatePane(session, desk);
+const translate = new TranslatePane(session, desk, editor);
 new SetupPane(session, desk);
 const lists = new ChoiceLists(session, desk);
 const panes = new Panes((tab, pane) => {
@@ -114,12 +124,14 @@ wireToggle("charts-toggle", (on) => {
   byId("charts-pane").hidden = !on;
   charts.draw();
 });
+byId("block-modes").addEventListener("click", () => editor.showBlock());
 wireDrop(desk);
 wireKeys({ desk, player, editor, projects: () => void dialog.open(), toLine: (line) => machine.runTo(line) });
 wireTheme(() => {
   machine.restyle();
   charts.draw();
   transport.draw();
+  translate.draw();
 });
 
 session.project.on((project) => {

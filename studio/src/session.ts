@@ -21,8 +21,19 @@ export interface Checked {
 export interface Translation {
   /** The program, if it is released. */
   output: string | undefined;
+  /** Of each of its lines the line of the source, 0 where the source says nothing of it. */
+  lines: Uint32Array | undefined;
   report: Report | undefined;
   messages: string;
+}
+
+/** A program that the open one is held against. */
+export interface Other {
+  name: string;
+  bytes: Uint8Array;
+  from: string;
+  machine: string;
+  options: Record<string, string>;
 }
 
 export type State = "loading" | "ready" | "working" | "failed";
@@ -136,6 +147,14 @@ export class Session {
     return found;
   }
 
+  /** Asks about the text as it is now; what nobody can answer yet is not answered. */
+  async ask(verb: string, more: Record<string, unknown>): Promise<Answer | undefined> {
+    const [project, quick] = [this.project.get(), this.engines?.quick];
+    if (!project || !quick) return undefined;
+    quick.put(project.file, bytesOf(project, this.text()));
+    return quick.run({ verb, ...request(project.file, project.choices), ...more });
+  }
+
   /** Cuts the program and its translation from one raw part; what lies between them, or why nobody knows. */
   async compare(to: string): Promise<Between | string | undefined> {
     const [project, heavy] = [this.project.get(), this.engines?.heavy];
@@ -153,6 +172,22 @@ export class Session {
     } catch (error) {
       if (error instanceof Cancelled) return undefined;
       return String(error);
+    }
+  }
+
+  /** What two programs do, held against each other; and the way of the other one. */
+  async compareMoves(other: Other): Promise<[Answer, Answer] | undefined> {
+    const [project, heavy] = [this.project.get(), this.engines?.heavy];
+    if (!project || !heavy) return undefined;
+    heavy.put(other.name, other.bytes);
+    const one = request(project.file, project.choices);
+    const { from, machine, options } = other;
+    const b = { file: other.name, ...given({ from, machine }), from_option: options };
+    try {
+      return [await heavy.run({ verb: "diff", a: one, b }), await heavy.run({ verb: "path", ...b })];
+    } catch (error) {
+      if (error instanceof Cancelled) return undefined;
+      throw error;
     }
   }
 
@@ -188,9 +223,10 @@ export class Session {
     const one = request(project.file, project.choices);
     if (this.cutLasted > SLOW) {
       // A part that takes its time comes later: until then the one before stands with the new path.
-      const bytes = (await heavy.run({ verb: "path", ...one })).bytes("path");
+      const answer = await heavy.run({ verb: "path", ...one });
+      const bytes = answer.bytes("path");
       if (!current()) return;
-      if (bytes) this.path.set(readPath(bytes));
+      if (bytes) this.path.set(readPath(bytes, answer.bytes("modes")));
     }
     const check = await heavy.run({ verb: "check", ...one });
     if (!current()) return;
@@ -202,11 +238,12 @@ export class Session {
     this.tellCut(cut);
     if (!this.translates.get()) return this.translation.set(undefined);
     if (!project.choices.to && !project.choices.machineTo) return this.translation.set(undefined);
-    const translated = await heavy.run({ verb: "translate", ...translation(project.file, project.choices) });
+    const translated = await heavy.run({ verb: "translate", ...translation(project.file, project.choices), map: true });
     if (!current()) return;
     const output = translated.bytes("output");
     this.translation.set({
       output: output && new TextDecoder().decode(output),
+      lines: linesOf(translated.bytes("lines")),
       report: translated.json<Report>("report"),
       messages: translated.text("messages"),
     });
@@ -225,7 +262,7 @@ export class Session {
     this.cut = readCut(answer);
     this.shownMoves = this.wantedMoves = Infinity;
     this.pathTold.set(this.cut ? "" : answer.text("messages"));
-    this.path.set(bytes && readPath(bytes));
+    this.path.set(bytes && readPath(bytes, answer.bytes("modes")));
     this.part.set(readHeights(answer));
     const alarms = (this.cut?.alarms ?? []).map(({ id, ...rest }) => ({ code: id, ...rest }));
     const checked = this.checked.get();
@@ -254,6 +291,10 @@ export class Session {
       this.seeking = false;
     }
   }
+}
+
+function linesOf(bytes: Uint8Array | undefined): Uint32Array | undefined {
+  return bytes && new Uint32Array(bytes.slice().buffer);
 }
 
 function given(entries: Record<string, string | undefined>): Record<string, string> {

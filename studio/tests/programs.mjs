@@ -53,3 +53,25 @@ export function long(moves) {
   }
   return [...lines, "G0 Z10.", "M5", "M30", "%", ""].join("\n");
 }
+
+/** A variable, a jump, a call and a loop. */
+export const MACRO = `%
+O1000 (#100)
+G21 G17 G90 G94 G40 G49 G80 G54
+S100 M3
+G0 X0. Y0. Z0.
+#100=1
+N10 G1 X#100 F100.
+#100=#100+1
+IF[#100LE3]GOTO10
+M98 P2000
+M30
+O2000
+#1=5.
+WHILE[#1LT7]DO1
+G1 Y#1
+#1=#1+1
+END1
+M99
+%
+`;

@@ -1,8 +1,6 @@
 //! `ncc fmt`: the layout of a program within its dialect, and nothing but the layout.
 //!
-//! `text` takes a program apart line by line and writes it anew (`layout`), and has each line judged
-//! (`same`); `number` gives blocks new numbers and whatever names them; `events` executes the text before
-//! and after; `calls` is for texts that are lists of calls. Not here: what words mean.
+//! Not here: the work itself (`ncc_driver::fmt`).
 //!
 //! ```text
 //! ncc fmt part.nc    `g1x10y5` becomes `G1 X10 Y5`
@@ -15,9 +13,9 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::{Family, Settings};
-use ncc_driver::fmt::events::{self, Compared};
-use ncc_driver::fmt::text::{self, Refused};
-use ncc_driver::fmt::{number, shown};
+use ncc_driver::fmt::events::Compared;
+use ncc_driver::fmt::shown;
+use ncc_driver::fmt::whole::{self, Whole};
 use ncc_driver::guess::better;
 use ncc_driver::job::Job;
 use ncc_driver::problem::{Exit, Problem};
@@ -25,9 +23,8 @@ use ncc_driver::questions;
 use ncc_driver::render::About;
 use ncc_driver::render::{Loudness, human};
 use ncc_driver::side::Side;
+use ncc_driver::source::Source;
 use ncc_driver::source::spool::Spool;
-use ncc_driver::source::{Readable, Source};
-use ncc_machines::schema::BlockNumbers;
 
 use self::args::Fmt;
 use crate::args::typed::Eol;
@@ -100,7 +97,7 @@ fn one(args: &Fmt, file: &str, known: &DialectRegistry, err: &mut dyn WriteColor
         Eol::Keep => source.is_crlf()?,
     };
     job.layout.crlf = eol;
-    job.layout.numbering = args.number.unwrap_or_else(|| numbering(&job));
+    job.layout.numbering = args.number.unwrap_or_else(|| whole::numbering(&job));
     let of_words = matches!(job.from.dialect.family, Family::Word | Family::Sinumerik);
     if !of_words && job.layout.numbering != Numbering::Keep {
         return Err(Problem::usage(
@@ -140,15 +137,6 @@ pub fn of_text(
     Ok(written)
 }
 
-/// Block numbers, as the machine's profile has them; else they are kept.
-fn numbering(job: &Job) -> Numbering {
-    match job.machines.layout().numbers {
-        None | Some((BlockNumbers::Keep, ..)) => Numbering::Keep,
-        Some((BlockNumbers::Off, ..)) => Numbering::Off,
-        Some((BlockNumbers::New, first, step)) => Numbering::Every { first, step },
-    }
-}
-
 /// Lays a text out.
 fn laid_out(
     loudness: Loudness,
@@ -159,38 +147,19 @@ fn laid_out(
 ) -> Result<Done, Problem> {
     let shown = source.shown.clone();
     let read = |e: io::Error| Problem::file("read", &shown, &e);
-    let eol: &[u8] = if job.layout.crlf { b"\r\n" } else { b"\n" };
-    let mut file = Spool::default();
-    let found = text::text(&job.from, eol, &mut *source.file, &mut file).map_err(read)?;
-    match found.refused {
-        Some(Refused::NotText(line)) => return Err(not_text(&shown, Some(line))),
-        Some(Refused::NotSame(line)) => return Err(not_same(&shown, Some(line))),
-        None => {}
-    }
-    let unread = found.unread;
-    let mut done = Done { file, changed: found.changed, unread, shown: String::new(), executed: false };
-    if job.layout.numbering != Numbering::Keep {
-        numbered(job, &shown, &mut *source.file, &mut done)?;
-    }
-    if done.changed == 0 {
-        // Every byte is the same.
-        done.executed = true;
-        return Ok(done);
-    }
-    let mut assumed = Vec::new();
-    let compared = events::compare(job, &mut *source.file, &mut done.file, &mut assumed).map_err(read)?;
-    if loudness != Loudness::Quiet {
-        let sound = !matches!(compared, Compared::NotExecuted(..));
+    let whole = whole::lay_out(job, source)?;
+    let Whole { file, changed, unread, compared, assumed } = whole;
+    let mut done = Done { file, changed, unread, shown: String::new(), executed: compared.is_none() };
+    if loudness != Loudness::Quiet && compared.is_some() {
+        let sound = !matches!(compared, Some(Compared::NotExecuted(..)));
         questions::note(job, source, &assumed, sound, err)?;
     }
     match compared {
-        Compared::Same(events) => {
+        Some(Compared::Same(events)) => {
             done.executed = true;
             done.shown = format!("the same words, and {events} events the same");
         }
-        Compared::Different => return Err(not_same(&shown, None)),
-        Compared::NotExecuted(_, true) => return Err(not_text(&shown, None)),
-        Compared::NotExecuted(first, false) => {
+        Some(Compared::NotExecuted(first, _)) => {
             let other = better(&mut source.file, &job.from, known.all()).map_err(read)?;
             if let Some((other, reasons)) = other {
                 let id = &job.from.dialect.id;
@@ -210,56 +179,10 @@ fn laid_out(
             done.shown =
                 "the same words; ncc cannot execute the program, so that no more was shown".to_owned();
         }
+        // Nothing changes.
+        Some(Compared::Different) | None => {}
     }
     Ok(done)
-}
-
-/// Gives the blocks of a text that was laid out other numbers.
-fn numbered(job: &Job, shown: &str, before: &mut dyn Readable, done: &mut Done) -> Result<(), Problem> {
-    let wrong = |e: io::Error| Problem::file("read", shown, &e);
-    let all = |file: &mut dyn Readable| -> io::Result<Vec<u8>> {
-        let mut text = Vec::new();
-        file.seek(SeekFrom::Start(0))?;
-        file.read_to_end(&mut text)?;
-        Ok(text)
-    };
-    let laid_out = all(&mut done.file).map_err(wrong)?;
-    let text = number::renumber(&job.from, &laid_out, job.layout.numbering).map_err(|refused| {
-        if refused.ours {
-            return not_same(shown, None);
-        }
-        let place = if refused.line > 0 { format!(":{}", refused.line) } else { String::new() };
-        Problem {
-            exit: Exit::Refused,
-            message: format!("{shown}{place}: block numbers cannot be changed because of {}", refused.what),
-            help: vec!["--number keep leaves them as they are".to_owned()],
-        }
-    })?;
-    let before = all(before).map_err(wrong)?;
-    let lines =
-        |text: &'_ [u8]| text.split_inclusive(|b| *b == b'\n').map(<[u8]>::to_vec).collect::<Vec<_>>();
-    let changed = lines(&before).iter().zip(&lines(&text)).filter(|(a, b)| a != b).count();
-    done.changed = u32::try_from(changed).unwrap_or(u32::MAX);
-    done.file.clear();
-    done.file.write_all(&text).map_err(wrong)
-}
-
-fn not_text(shown: &str, line: Option<u32>) -> Problem {
-    let place = line.map(|line| format!(":{line}")).unwrap_or_default();
-    Problem {
-        exit: Exit::Refused,
-        message: format!("{shown}{place} is not the text of a program"),
-        help: vec!["what is no text is never written over".to_owned()],
-    }
-}
-
-fn not_same(shown: &str, line: Option<u32>) -> Problem {
-    let place = line.map(|line| format!(":{line}")).unwrap_or_default();
-    Problem {
-        exit: Exit::VerificationFailed,
-        message: format!("{shown}{place} would not say the same; nothing is written"),
-        help: vec!["this is a fault of ncc; please report it with the program".to_owned()],
-    }
 }
 
 fn tell(done: &Done, source: &Source, say: bool, err: &mut dyn WriteColor) {

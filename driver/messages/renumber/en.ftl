@@ -17,3 +17,5 @@ renumber-return = a return to blocks that get different numbers
 renumber-caller = a return to block { $block } of a caller that is not in this text
 renumber-several = a jump to block { $block }, which is there more than once
 renumber-nowhere = a jump to block { $block }, which is not there
+renumber-computed-variable = a computed number of a variable
+renumber-computed-call = a call of a computed program

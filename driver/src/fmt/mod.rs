@@ -18,3 +18,4 @@ pub mod shown;
 #[cfg(test)]
 mod tests;
 pub mod text;
+pub mod whole;

@@ -118,12 +118,12 @@ pub fn renumber(settings: &Settings, text: &[u8], numbering: Numbering) -> Resul
 }
 
 /// Blocks by scope and number.
-struct Numbers {
-    blocks: BTreeMap<(usize, u32), Vec<usize>>,
+pub(crate) struct Numbers {
+    pub(crate) blocks: BTreeMap<(usize, u32), Vec<usize>>,
 }
 
 impl Numbers {
-    fn of(found: &Found) -> Numbers {
+    pub(crate) fn of(found: &Found) -> Numbers {
         let mut blocks: BTreeMap<_, Vec<usize>> = BTreeMap::new();
         for (at, block) in found.blocks.iter().enumerate() {
             if let Some(number) = &block.number {
@@ -134,7 +134,7 @@ impl Numbers {
     }
 
     /// The blocks that a reference leads to: one in each scope that it may lead into.
-    fn targets(&self, found: &Found, reference: &Reference) -> Result<Vec<usize>, Refused> {
+    pub(crate) fn targets(&self, found: &Found, reference: &Reference) -> Result<Vec<usize>, Refused> {
         let &Reference { value, line, .. } = reference;
         let main = found.blocks.first().map_or(0, |block| block.scope);
         let main = found.programs.keys().next().copied().unwrap_or(main);

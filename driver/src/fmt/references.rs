@@ -82,7 +82,7 @@ pub struct Found {
 }
 
 /// An entry about what keeps numbers from being changed.
-pub(super) fn reason(form: &'static str) -> Message {
+pub(crate) fn reason(form: &'static str) -> Message {
     Message::part(Part::Renumber, form)
 }
 

@@ -12,6 +12,7 @@ pub mod initial_variables;
 pub mod options;
 pub mod parameters;
 pub mod project_answers;
+pub mod project_file;
 pub mod start;
 
 use std::collections::BTreeSet;

@@ -14,6 +14,7 @@
 
 pub mod annotate;
 pub mod map;
+pub mod pairs;
 pub mod rows;
 mod shapes;
 pub mod spool;

@@ -1,7 +1,7 @@
 //! The moves of a program as columns of numbers, for a page that draws them: never one object a move.
 //!
 //! The first line is JSON: how many pieces there are, and for each column its name, its type (`u8`, `u16`, `u32`, `f32`,
-//! `f64`) and where it begins, counted in bytes from the end of the line. Numbers are little-endian. An arc is as many
+//! `f64`), where it begins, counted in bytes from the end of the line, and how many numbers it has. Numbers are little-endian. An arc is as many
 //! straight pieces as a picture needs.
 //!
 //! | column | what it is |
@@ -18,6 +18,7 @@ use std::io::{self, Write};
 
 use ncc_simulate::Way;
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 use super::path::Path;
 
@@ -26,7 +27,8 @@ const PIECES: f64 = 96.0;
 
 #[derive(Serialize)]
 struct Head {
-    pieces: usize,
+    #[serde(flatten)]
+    about: Map<String, Value>,
     columns: Vec<Column>,
 }
 
@@ -35,7 +37,11 @@ struct Column {
     name: &'static str,
     r#type: &'static str,
     offset: usize,
+    count: usize,
 }
+
+/// Name, type and bytes of a column.
+pub(super) type Bytes = (&'static str, &'static str, Vec<u8>);
 
 #[derive(Default)]
 struct Columns {
@@ -121,18 +127,20 @@ pub fn write(out: &mut dyn Write, path: &Path) -> io::Result<()> {
     let wholes = wholes.into_iter().map(|(name, own)| (name, "u32", bytes(own, |v| v.to_le_bytes())));
     let rest = [("tool", "u16", bytes(&all.tools, |v| v.to_le_bytes())), ("kind", "u8", all.kinds.clone())];
     let columns: Vec<_> = doubles.chain(singles).chain(wholes).chain(rest).collect();
+    let about = Map::from_iter([("pieces".to_owned(), all.kinds.len().into())]);
+    table(out, about, &columns)
+}
+
+/// Writes a line of JSON and columns.
+pub(super) fn table(out: &mut dyn Write, about: Map<String, Value>, columns: &[Bytes]) -> io::Result<()> {
     let mut offset = 0;
-    let head = Head {
-        pieces: all.kinds.len(),
-        columns: columns
-            .iter()
-            .map(|(name, r#type, bytes)| {
-                let own = Column { name, r#type, offset };
-                offset += bytes.len();
-                own
-            })
-            .collect(),
-    };
+    let columns_of = columns.iter().map(|(name, r#type, bytes)| {
+        let width = r#type[1..].parse::<usize>().map_or(1, |bits| bits / 8);
+        let own = Column { name, r#type, offset, count: bytes.len() / width };
+        offset += bytes.len();
+        own
+    });
+    let head = Head { about, columns: columns_of.collect() };
     let mut line = serde_json::to_vec(&head)?;
     // Columns of a page begin where their type may.
     line.resize((line.len() + 1).next_multiple_of(8) - 1, b' ');
@@ -141,6 +149,7 @@ pub fn write(out: &mut dyn Write, path: &Path) -> io::Result<()> {
     columns.iter().try_for_each(|(_, _, bytes)| out.write_all(bytes))
 }
 
-fn bytes<T: Copy, const N: usize>(column: &[T], of: impl Fn(T) -> [u8; N]) -> Vec<u8> {
+/// The bytes of a column.
+pub(super) fn bytes<T: Copy, const N: usize>(column: &[T], of: impl Fn(T) -> [u8; N]) -> Vec<u8> {
     column.iter().flat_map(|value| of(*value)).collect()
 }

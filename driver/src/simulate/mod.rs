@@ -17,6 +17,7 @@ pub mod cut;
 pub mod described;
 pub mod document;
 pub mod files;
+pub mod modes;
 pub mod path;
 pub mod raw;
 pub mod told;

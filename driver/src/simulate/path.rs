@@ -128,6 +128,16 @@ impl<'t> Recorder<'t> {
         }
     }
 
+    /// How many moves there are so far.
+    pub fn moves(&self) -> usize {
+        self.path.moves.len()
+    }
+
+    /// The work offset whose zero is that of the part.
+    pub fn offset(&self) -> Option<u16> {
+        self.offset
+    }
+
     /// All moves, in coordinates of the part.
     pub fn finish(self) -> Path {
         let Recorder { mut path, tables, highs, top, offset, inch, said, .. } = self;
@@ -184,7 +194,7 @@ impl<'t> Recorder<'t> {
     }
 
     /// Whether a place of the machine along an axis is one of the part, too.
-    fn is_placed(&self, offset: u16, axis: usize) -> bool {
+    pub(super) fn is_placed(&self, offset: u16, axis: usize) -> bool {
         self.tables.work_offsets.get(&offset).is_some_and(|zero| zero[axis].is_some())
     }
 

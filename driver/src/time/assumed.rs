@@ -5,8 +5,9 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_machines::Profile;
 use ncc_time::{AssumedFact, Fact, Model, WHOLE_PATH};
 
-use super::drive::{Course, Length, Plan};
+use super::drive::{Course, Plan};
 use super::duration::short;
+use super::modes::Length;
 use crate::job::Job;
 use crate::render::head::assumption;
 use crate::render::messages::message::{Message, Part};

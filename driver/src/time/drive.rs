@@ -27,6 +27,7 @@ use ncc_plot::Turned;
 use ncc_time::{Clock, Longest, Machine, Model, Place, Timed};
 
 use super::blocks::Blocks;
+use super::modes::{Followed, Length};
 use super::reach::Reach;
 use crate::job::Job;
 use crate::review::stream::as_stated;
@@ -103,6 +104,8 @@ pub struct Said {
     pub turned: Option<Box<Turned>>,
     /// Where its tip is, if the sink wants it.
     pub tip: Tip,
+    /// How many blocks have been executed, its own too, if the sink wants modes.
+    pub executed: u64,
 }
 
 /// What leads from where the machine is to where the tip of the tool is on the part.
@@ -138,6 +141,11 @@ pub trait Sink {
         false
     }
 
+    /// Whether it wants the modes behind each block.
+    fn wants_modes(&self) -> bool {
+        false
+    }
+
     /// Whether it wants bounds of the whole.
     fn wants_bounds(&self) -> bool {
         false
@@ -149,6 +157,9 @@ pub trait Sink {
     /// Writing.
     fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()>;
 
+    /// The modes behind the statement of a line, if it wants them; its functions come later.
+    fn active(&mut self, _line: u32, _followed: &Followed) {}
+
     /// A statement of a cycle that is told as it is called; the control stands before the holes.
     ///
     /// # Errors
@@ -156,15 +167,6 @@ pub trait Sink {
     fn called(&mut self, _stmt: &Stmt, _exec: &Exec, _block: &str) -> io::Result<()> {
         Ok(())
     }
-}
-
-/// Whose length is in force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Length {
-    /// An entry of the length table, which is edge 1 of the tool with its number too; 0 is none.
-    Entry(u32),
-    /// An edge of a tool; -1 is a tool that nobody named.
-    Edge(i64, u32),
 }
 
 /// Corners that a program leaves to the machine.
@@ -264,6 +266,7 @@ struct Drive<'d> {
     wants_turns: bool,
     wants_tip: bool,
     wants_bounds: bool,
+    followed: Option<Followed>,
     reader: Reader,
     batch: Batch,
     blocks: Blocks,
@@ -313,6 +316,7 @@ impl<'d> Drive<'d> {
             wants_reach: sink.wants_reach(),
             wants_turns: sink.wants_turns(),
             wants_tip: sink.wants_tip(),
+            followed: sink.wants_modes().then(Followed::default),
             plan,
             sink,
             reader: plan.job.reader(true),
@@ -432,6 +436,7 @@ impl<'d> Drive<'d> {
     /// Takes facts for granted that the program relies on, and puts the tool where it starts.
     fn assume(&mut self, facts: Modes) {
         self.exec.assume(&facts);
+        self.follow_assumed(facts);
         if !std::mem::replace(&mut self.stood, true) {
             let start = self.plan.job.start.map(|at| Some(at.unwrap_or(0)));
             self.exec.stand_at(&start);
@@ -464,6 +469,7 @@ impl<'d> Drive<'d> {
         if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
             return Ok(Err(refusal));
         }
+        self.follow(stmt, text);
         if !self.moved && self.exec.offset_in_force() != before {
             self.start_in(before);
         }
@@ -510,14 +516,6 @@ impl<'d> Drive<'d> {
             self.event(event, place, said);
         }
         self.events = events;
-    }
-
-    /// Where a statement stands.
-    fn place(&mut self, span: Span, text: &[u8]) -> (Place, Said) {
-        let line = self.blocks.number_of(text, span.start).unwrap_or(0);
-        let block = if self.wants_blocks { self.blocks.text_of(text, span.start) } else { None };
-        let block = block.unwrap_or_else(|| Rc::clone(&self.nothing));
-        (Place { line, span }, Said { block, ..Said::default() })
     }
 
     /// Whether a statement belongs to a cycle.

@@ -16,6 +16,7 @@ pub mod csv;
 pub mod drive;
 pub mod duration;
 pub mod grid;
+pub mod modes;
 pub mod parameters;
 pub mod payload;
 pub mod reach;

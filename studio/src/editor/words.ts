@@ -5,7 +5,9 @@ import { autocompletion, type Completion, type CompletionContext, type Completio
 import type { Extension } from "@codemirror/state";
 import { hoverTooltip } from "@codemirror/view";
 import { el } from "../ui/dom";
+import { modesTable } from "../ui/modes";
 import { say } from "../ui/texts";
+import type { AskModes } from "./block";
 
 export interface WordRow {
   kind: "code" | "name" | "call" | "address";
@@ -35,7 +37,7 @@ function plain(word: string): string {
 /** A word of a letter and a number, or of several letters. */
 const WORD = /[A-Za-z_$][A-Za-z_$0-9]{2,}|[A-Za-z](?=\s*[-+]?[\d.#[=])\s*[-+]?[\d.]*/g;
 
-export function explained(ask: AskWords): Extension {
+export function explained(ask: AskWords, modes: AskModes): Extension {
   const hover = hoverTooltip(async (view, position) => {
     const line = view.state.doc.lineAt(position);
     const match = [...line.text.matchAll(WORD)].find(
@@ -43,9 +45,12 @@ export function explained(ask: AskWords): Extension {
     );
     const words = match && (await ask());
     const row = words && rowOf(words, match[0]);
-    if (!row) return null;
-    const from = line.from + match.index;
-    return { pos: from, end: from + match[0].length, above: true, create: () => ({ dom: shown(row, words) }) };
+    const active = modes(line.number);
+    if (!row && !active) return null;
+    const [from, length] = row ? [line.from + match.index, match[0].length] : [line.from, line.length];
+    const dom = row ? shown(row, words) : el("div", { class: "about" });
+    if (active) dom.append(modesTable(active));
+    return { pos: from, end: from + length, above: true, create: () => ({ dom }) };
   });
   return [hover, autocompletion({ override: [(context) => complete(context, ask)], icons: false })];
 }

@@ -5,6 +5,8 @@
 // Offsets count from the byte behind the line. A piece is a straight move, or as much of an arc as a picture needs. Lengths
 // are mm in coordinates of the part, times seconds, feeds mm/min, speeds rev/min.
 
+import { Modes } from "./modes";
+
 /** Kinds of pieces. */
 export const enum Kind {
   Rapid = 0,
@@ -47,6 +49,8 @@ export interface Path extends Columns {
   readonly seconds: number;
   /** Corners of the box around what cuts, or around all where nothing does. */
   readonly box: Box;
+  /** What is active in its blocks and moves. */
+  readonly modes: Modes | undefined;
 }
 
 export interface Box {
@@ -64,8 +68,8 @@ export function isRapid(kind: number | undefined): boolean {
   return kind === Kind.Rapid || kind === Kind.Away;
 }
 
-/** Reads the output `path`. */
-export function readPath(bytes: Uint8Array): Path {
+/** Reads the outputs `path` and `modes`. */
+export function readPath(bytes: Uint8Array, modes: Uint8Array | undefined): Path {
   const end = bytes.indexOf(10);
   const head = JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))) as Head;
   const found: Record<string, unknown> = {};
@@ -78,7 +82,7 @@ export function readPath(bytes: Uint8Array): Path {
   }
   const columns = found as unknown as Columns;
   const seconds = head.pieces > 0 ? (columns.t1[head.pieces - 1] ?? 0) : 0;
-  return { ...columns, pieces: head.pieces, seconds, box: boxOf(columns, head.pieces) };
+  return { ...columns, pieces: head.pieces, seconds, box: boxOf(columns, head.pieces), modes: modes && new Modes(modes) };
 }
 
 function boxOf(columns: Columns, pieces: number): Box {

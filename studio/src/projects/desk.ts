@@ -59,6 +59,27 @@ export class Desk {
     await this.example(EXAMPLES[0] as Example);
   }
 
+  /** Other programs, by ids and names: of the folder that is served, or the other projects. */
+  async otherPrograms(): Promise<[id: string, name: string][]> {
+    const own = this.project;
+    if (own?.disk && this.list) {
+      const names = this.list.programs.map((one) => one.name).filter((name) => name !== own.disk?.name);
+      return names.map((name) => [`disk/${name}`, name]);
+    }
+    return (await this.store.list()).filter((one) => one.id !== own?.id && !one.disk).map((one) => [one.id, one.name]);
+  }
+
+  /** The name, the bytes and the dialect of one of them. */
+  async otherFile(id: string): Promise<[string, Uint8Array, string] | undefined> {
+    const name = id.startsWith("disk/") && this.project?.disk ? id.slice(5) : undefined;
+    if (name !== undefined) {
+      const read = await this.folder?.read(name);
+      return read && [name, read[0], "auto"];
+    }
+    const found = await this.store.get(id);
+    return found && [found[0].file, bytesOf(...found), found[0].choices.from];
+  }
+
   async open(id: string): Promise<void> {
     await this.save();
     const found = await this.store.get(id);

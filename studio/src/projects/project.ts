@@ -64,6 +64,11 @@ export function projectOf(name: string, file: string, bytes: Uint8Array): [Proje
   return [project, text.replaceAll("\r\n", "\n")];
 }
 
+/** A text of a project's bytes. */
+export function textOf(project: Project, bytes: Uint8Array): string {
+  return new TextDecoder(project.encoding).decode(bytes).replaceAll("\r\n", "\n");
+}
+
 /** The bytes of a project's file. A character that its encoding does not have becomes a question mark. */
 export function bytesOf(project: Project, text: string): Uint8Array {
   const lines = project.crlf ? text.replaceAll("\n", "\r\n") : text;

@@ -4,18 +4,20 @@ import uPlot from "uplot";
 import type { Path } from "../engine/path";
 import { el } from "../ui/dom";
 import { figure, say, type TextName } from "../ui/texts";
-import { curve } from "./series";
+import { curve, spindle, type Curve } from "./series";
 
 interface Row {
   name: TextName | "Z";
   unit: string;
   ink: string;
   of(path: Path): [ArrayLike<number>, ArrayLike<number>];
+  /** Its curve, where that is more than what moves have. */
+  curve?(path: Path): Curve;
 }
 
 const ROWS: Row[] = [
   { name: "feed", unit: "mm/min", ink: "--c-move-feed", of: (path) => [path.feed, path.feed] },
-  { name: "spindle", unit: "1/min", ink: "--c-move-clockwise", of: (path) => [path.speed, path.speed] },
+  { name: "spindle", unit: "1/min", ink: "--c-move-clockwise", of: (path) => [path.speed, path.speed], curve: spindle },
   { name: "Z", unit: "mm", ink: "--c-move-counterclockwise", of: (path) => [path.z0, path.z1] },
 ];
 
@@ -106,7 +108,7 @@ export class Charts {
       ],
       series: [{}, { stroke: ink(row.ink), width: 1.2, points: { show: false } }],
     };
-    const plot = new uPlot(options, curve(path, ...row.of(path)), box);
+    const plot = new uPlot(options, row.curve?.(path) ?? curve(path, ...row.of(path)), box);
     plot.over.append(line);
     let down = 0;
     plot.over.addEventListener("pointerdown", (event) => (down = event.clientX));

@@ -22,6 +22,46 @@ export function curve(path: Path, from: ArrayLike<number>, to: ArrayLike<number>
   return sliced(path, from, to, seconds / SLICES);
 }
 
+/** So many changes of speed are drawn one by one; more of them stand as any other column. */
+const MOST_RUNS = 4 * SLICES;
+
+/**
+ * The spindle's speed: what each move has, and between two of them the runs to another speed, which are slopes where it is
+ * stated how fast the spindle runs up and down, and steps elsewhere.
+ */
+export function spindle(path: Path): Curve {
+  const runs = path.modes?.runs ?? [];
+  const times: number[] = [];
+  const values: number[] = [];
+  const put = (time: number, value: number) => {
+    times.push(Math.max(time, times.at(-1) ?? 0));
+    values.push(value);
+  };
+  put(0, Math.abs(runs[0]?.before ?? path.speed[0] ?? 0));
+  let next = 0;
+  for (let at = 0; at <= path.pieces; at += 1) {
+    const begins = at < path.pieces ? (path.t0[at] as number) : Infinity;
+    for (let run = runs[next]; run && run.from <= begins; run = runs[next]) {
+      next += 1;
+      put(run.from, values.at(-1) ?? 0);
+      put(run.from, Math.abs(run.before));
+      // It stands still where it turns the other way.
+      const share = run.before / (run.before - run.after);
+      if (run.before * run.after < 0) put(run.from + (run.to - run.from) * share, 0);
+      put(run.to, Math.abs(run.after));
+    }
+    if (at === path.pieces) break;
+    const speed = path.speed[at] as number;
+    if (speed !== values.at(-1)) {
+      put(begins, values.at(-1) ?? 0);
+      put(begins, speed);
+    }
+    if (times.length > MOST_RUNS) return curve(path, path.speed, path.speed);
+  }
+  put(path.seconds, values.at(-1) ?? 0);
+  return [times, values];
+}
+
 function sliced(path: Path, from: ArrayLike<number>, to: ArrayLike<number>, width: number): Curve {
   const times: number[] = [];
   const values: number[] = [];

@@ -5,9 +5,12 @@ import type { Question } from "../engine/documents";
 import type { Between } from "../engine/part";
 import { download, type Desk } from "../projects/desk";
 import { choose, type Choices } from "../projects/project";
-import type { Session, Translation } from "../session";
+import type { Other, Session, Translation } from "../session";
 import { byId, el, icon } from "../ui/dom";
+import { wireToggle } from "../ui/layout";
 import { figure, say, type TextName } from "../ui/texts";
+import { Aligned } from "./align";
+import { MovesPane } from "./moves";
 
 /** Options of the command line that help texts name, in backquotes. */
 const OPTION = /`(--(?:from-option|to-option|from|pass) [\w.=-]+)`/g;
@@ -18,21 +21,54 @@ const ENDINGS: Record<string, string> = { siemens: "mpf", linuxcnc: "ngc", grbl:
 export class TranslatePane {
   private readonly output: Editor;
   private shown = "";
+  private readonly aligned: Aligned;
+  private readonly moves: MovesPane;
 
   constructor(
     private readonly session: Session,
     private readonly desk: Desk,
+    source: Editor,
   ) {
     this.output = new Editor(byId("output"), {
       label: say("translation"),
       readOnly: true,
       colours: (doc, first, lines) => session.colours(doc, this.target() || "auto", first, lines),
       words: () => session.words(this.target()),
+      cursor: (line) => this.aligned.markOutput(line),
     });
+    this.aligned = new Aligned(source, this.output);
+    this.moves = new MovesPane(session, desk, () => this.other(), (line, other) => {
+      if (line !== undefined) {
+        source.goTo(line);
+        source.focus();
+        this.markSource(line);
+      }
+      if (other !== undefined) this.output.markPairs([other], true);
+    });
+    wireToggle("together", (on) => this.aligned.setTogether(on));
     session.translation.on((translation) => this.show(translation));
     session.project.on(() => this.choices());
     byId("translation-export").addEventListener("click", () => this.save());
     byId("compare").addEventListener("click", () => void this.compare());
+  }
+
+  /** Marks what was made of a line of the source. */
+  markSource(line: number): void {
+    if (this.session.translation.get()?.lines) this.aligned.markSource(line);
+  }
+
+  /** The colours are others. */
+  draw(): void {
+    this.moves.draw();
+  }
+
+  /** The translation as a program of its own. */
+  private other(): Other | undefined {
+    const [output, project] = [this.session.translation.get()?.output, this.session.project.get()];
+    if (output === undefined || !project) return undefined;
+    const { machineTo: machine, toOption: options } = project.choices;
+    const bytes = new TextEncoder().encode(output);
+    return { name: `translated-${project.file}`, bytes, from: this.target(), machine, options };
   }
 
   private target(): string {
@@ -45,6 +81,7 @@ export class TranslatePane {
     const text = translation?.output ?? "";
     if (text !== this.shown) this.output.open(text.replaceAll("\r\n", "\n"));
     this.shown = text;
+    this.aligned.setLines(translation?.lines);
     byId<HTMLButtonElement>("translation-export").disabled = translation?.output === undefined;
     byId<HTMLButtonElement>("compare").disabled = translation?.output === undefined;
     byId("compared").textContent = "";

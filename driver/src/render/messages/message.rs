@@ -62,6 +62,8 @@ pub(crate) enum Part {
     Question,
     /// Why block numbers cannot be changed.
     Renumber,
+    /// Why a name stays.
+    Rename,
     /// Facts of a machine profile, and the result of its test.
     Machine,
     /// Files for one tool each.
@@ -96,6 +98,7 @@ impl Part {
             Part::Problem => "problem",
             Part::Question => "question",
             Part::Renumber => "renumber",
+            Part::Rename => "rename",
             Part::Machine => "machine",
             Part::PerTool => "per-tool",
             Part::Simulate => "simulate",
@@ -122,6 +125,7 @@ impl Part {
             Part::Problem => include_str!("../../../messages/problem/en.ftl"),
             Part::Question => include_str!("../../../messages/question/en.ftl"),
             Part::Renumber => include_str!("../../../messages/renumber/en.ftl"),
+            Part::Rename => include_str!("../../../messages/rename/en.ftl"),
             Part::Machine => include_str!("../../../messages/machine/en.ftl"),
             Part::PerTool => include_str!("../../../messages/per-tool/en.ftl"),
             Part::Simulate => include_str!("../../../messages/simulate/en.ftl"),

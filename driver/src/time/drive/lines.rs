@@ -8,6 +8,7 @@
 //! Not here: when that is so ([`Exec::way_along`](ncc_exec::Exec::way_along)).
 
 use std::io;
+use std::rc::Rc;
 
 use ncc_exec::{Event, Kind};
 use ncc_ir::canon::AXES;
@@ -57,12 +58,22 @@ impl<'d> Drive<'d> {
             self.exec.go_along(way);
         }
         for (span, end) in &made {
-            let (place, said) = self.place(*span, text);
+            let (place, mut said) = self.place(*span, text);
+            self.follow_along(place.line);
+            said.executed = self.executed();
             self.event(Event { span: *span, end: *end, ..last.clone() }, place, said);
         }
         self.along = made;
         self.deliver()?;
         Ok(way.map_or(0, |way| way.lines()))
+    }
+
+    /// Where a statement stands.
+    pub(super) fn place(&mut self, span: Span, text: &[u8]) -> (Place, Said) {
+        let line = self.blocks.number_of(text, span.start).unwrap_or(0);
+        let block = if self.wants_blocks { self.blocks.text_of(text, span.start) } else { None };
+        let block = block.unwrap_or_else(|| Rc::clone(&self.nothing));
+        (Place { line, span }, Said { block, executed: self.executed(), ..Said::default() })
     }
 
     /// Passes an event on, with what its block says.

@@ -1,7 +1,7 @@
 //! What is noted of a program: what it depends on, what its cycles take from the control, and what was found in it.
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
-use ncc_ir::canon::PathMode;
+use ncc_ir::canon::{Modes, PathMode};
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::cycle::{Clearance, CycleKind};
@@ -11,9 +11,10 @@ use ncc_ir::unexecuted::ValueUnexecuted;
 use ncc_machines::reading::Told;
 use ncc_time::{Act, Place};
 
-use super::{Drive, Length, MOST_HELD, Said};
+use super::{Drive, MOST_HELD, Said};
 use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
+use crate::time::modes::{Followed, Length};
 
 impl<'d> Drive<'d> {
     /// Notes a block of a contour, and contours that the tool's centre is not followed along.
@@ -26,6 +27,32 @@ impl<'d> Drive<'d> {
             self.held.pop_front();
         }
         self.held.push_back((span, place, said.clone()));
+    }
+
+    /// Passes on what is active behind a statement, where the sink wants to know.
+    pub(super) fn follow(&mut self, stmt: &Stmt, text: &[u8]) {
+        let Some(followed) = &mut self.followed else { return };
+        followed.step(stmt, &self.exec);
+        self.sink.active(self.blocks.number_of(text, stmt.span.start).unwrap_or(0), followed);
+    }
+
+    /// Passes on the same for a line that makes the event of the one before.
+    pub(super) fn follow_along(&mut self, line: u32) {
+        let Some(followed) = &mut self.followed else { return };
+        followed.pass();
+        self.sink.active(line, followed);
+    }
+
+    /// Takes facts for granted that the program relies on.
+    pub(super) fn follow_assumed(&mut self, facts: Modes) {
+        if let Some(followed) = &mut self.followed {
+            followed.assume(facts);
+        }
+    }
+
+    /// How many blocks have been executed, where that is followed.
+    pub(super) fn executed(&self) -> u64 {
+        self.followed.as_ref().map_or(0, Followed::executed)
     }
 
     /// Notes what a move depends on: whether it goes anywhere too.

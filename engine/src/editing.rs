@@ -1,0 +1,135 @@
+//! Requests of an editor that change a text, or lead through it: layout, new block numbers, names and their places, another
+//! name.
+//!
+//! Lines count from 1; columns count the units of UTF-16 from 0, as pages do. Not here: what is done in the text
+//! (`ncc_driver::fmt`, `ncc_driver::names`).
+
+use std::io::{self, Read, Seek};
+
+use codespan_reporting::term::termcolor::Buffer;
+use ncc_backends::Numbering;
+use ncc_driver::fmt::whole;
+use ncc_driver::job::project_file;
+use ncc_driver::machines::pair::Machines;
+use ncc_driver::names::{self, rename};
+use ncc_driver::problem::{Exit, Problem};
+use ncc_driver::side::Side;
+use serde_json::{Value, json};
+
+use crate::colours::column;
+use crate::program::{Files, Outputs, named, open, profile, settings, side};
+use crate::request::{Layout, One, Project, Rename};
+
+fn all(side: &mut Side, name: &str) -> Result<Vec<u8>, Problem> {
+    let mut text = Vec::new();
+    let done = side.source.file.rewind().and_then(|()| side.source.file.read_to_end(&mut text).map(drop));
+    done.map_err(|e: io::Error| Problem::file("read", name, &e))?;
+    Ok(text)
+}
+
+/// Lays a program out.
+pub(crate) fn layout(
+    asked: &Layout,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
+    let one = asked.one();
+    let cannot = |e: io::Error| Problem::file("read", &one.file, &e);
+    let Side { mut source, mut job } = side(&one, files, messages)?;
+    job.layout.crlf = source.is_crlf()?;
+    job.layout.numbering = match asked.number {
+        Some([first, step]) => Numbering::Every { first, step },
+        None => whole::numbering(&job),
+    };
+    source.rewind()?;
+    let mut done = whole::lay_out(&job, &mut source)?;
+    let mut text = Vec::new();
+    done.file.rewind().and_then(|()| done.file.read_to_end(&mut text).map(drop)).map_err(cannot)?;
+    Ok((Exit::Done, vec![("output", text)]))
+}
+
+/// The names of a program, and for each of their places five numbers: which name, line, first column, the column behind
+/// it, and whether the name gets its meaning there.
+pub(crate) fn names(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let mut side = side(one, files, messages)?;
+    let text = all(&mut side, &one.file)?;
+    let found = names::find(&side.job.from, &text);
+    let lines = Lines::of(&text);
+    let mut places: Vec<usize> = Vec::new();
+    for (number, name) in found.names.iter().enumerate() {
+        for place in &name.places {
+            let at = |byte| lines.column(&text, place.line as usize, byte);
+            places.extend([number, place.line as usize, at(place.range.start), at(place.range.end)]);
+            places.push(usize::from(place.defines));
+        }
+    }
+    let names: Vec<Value> =
+        found.names.iter().map(|name| json!({ "sort": name.sort, "text": name.text })).collect();
+    let document = json!({ "names": names, "places": places });
+    Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
+}
+
+/// Gives a name another, at all its places.
+pub(crate) fn renamed(
+    asked: &Rename,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
+    let one = asked.one();
+    let mut side = side(&one, files, messages)?;
+    let text = all(&mut side, &one.file)?;
+    let place = Lines::of(&text).byte(&text, asked.line, asked.column);
+    let written = rename::rename(&side.job, &text, place, &asked.to)?;
+    Ok((Exit::Done, vec![("output", written)]))
+}
+
+/// Writes the answers for a program into a project file.
+pub(crate) fn project(
+    asked: &Project,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
+    let mut source = open(&asked.file, false, files, messages)?;
+    let machines = Machines { from: profile(asked.machine_from.as_deref(), files)?, to: None };
+    let (from, _) = settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, None)?;
+    let to = named(asked.to.as_deref())?.map(|dialect| dialect.id.as_str());
+    let text = asked.project.as_ref().and_then(|name| files.get(name)).map(Vec::as_slice).unwrap_or_default();
+    let text = String::from_utf8_lossy(text);
+    let from = project_file::Side {
+        dialect: &from.dialect.id,
+        machine: asked.machine_from.as_deref(),
+        options: &asked.from_option,
+    };
+    let machine = asked.machine_to.as_deref();
+    let to = project_file::Side { dialect: to.unwrap_or_default(), machine, options: &asked.to_option };
+    let to = Some(&to).filter(|to| !to.dialect.is_empty() || to.machine.is_some());
+    let written = project_file::answered(&text, &asked.file, &from, to)?;
+    Ok((Exit::Done, vec![("output", written.into_bytes())]))
+}
+
+/// Where the lines of a text begin.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(text: &[u8]) -> Lines {
+        let ends = text.iter().enumerate().filter(|(_, byte)| **byte == b'\n').map(|(at, _)| at + 1);
+        Lines(std::iter::once(0).chain(ends).collect())
+    }
+
+    /// The bytes of a line, and where they begin.
+    fn line<'t>(&self, text: &'t [u8], line: usize) -> (usize, &'t [u8]) {
+        let start = self.0.get(line.saturating_sub(1)).copied().unwrap_or(text.len());
+        let end = self.0.get(line).copied().unwrap_or(text.len());
+        (start, &text[start..end])
+    }
+
+    fn column(&self, text: &[u8], line: usize, byte: usize) -> usize {
+        let (start, own) = self.line(text, line);
+        column(own, byte.saturating_sub(start))
+    }
+
+    fn byte(&self, text: &[u8], line: usize, wanted: usize) -> usize {
+        let (start, own) = self.line(text, line);
+        start + (0..own.len()).find(|byte| column(own, *byte) >= wanted).unwrap_or(own.len())
+    }
+}

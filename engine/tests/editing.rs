@@ -1,0 +1,155 @@
+//! Layout, names and renaming, as a page asks for them.
+
+use ncc_engine::Engine;
+use serde_json::Value;
+
+fn done(text: &str, request: &str) -> (u8, String, String) {
+    let mut engine = Engine::default();
+    engine.put("part.nc", text.as_bytes().to_vec());
+    let code = engine.run(request);
+    let of = |name: &str| String::from_utf8_lossy(engine.output(name).unwrap_or_default()).into_owned();
+    (code, of("output") + &of("document"), of("messages"))
+}
+
+/// Names with their places, `Variable 100: 3:0 def, 4:7`.
+fn names(text: &str, from: &str) -> Vec<String> {
+    let (code, document, told) =
+        done(text, &format!(r#"{{ "verb": "names", "file": "part.nc", "from": "{from}" }}"#));
+    assert_eq!(code, 0, "{told}");
+    let document: Value = serde_json::from_str(&document).expect("JSON");
+    let numbers: Vec<u64> =
+        document["places"].as_array().expect("places").iter().filter_map(Value::as_u64).collect();
+    let names = document["names"].as_array().expect("names").iter().enumerate();
+    names
+        .map(|(at, name)| {
+            let own = numbers.chunks(5).filter(|place| place[0] == at as u64);
+            let own: Vec<String> = own
+                .map(|place| {
+                    let def = if place[4] == 1 { "!" } else { "" };
+                    format!("{}:{}-{}{def}", place[1], place[2], place[3])
+                })
+                .collect();
+            format!("{} {} {}", name["sort"].as_str().unwrap(), name["text"].as_str().unwrap(), own.join(" "))
+        })
+        .collect()
+}
+
+/// The text with another name, or what is told.
+fn renamed(text: &str, from: &str, line: usize, column: usize, to: &str) -> Result<String, String> {
+    let request = format!(
+        r#"{{ "verb": "rename", "file": "part.nc", "from": "{from}", "line": {line}, "column": {column}, "to": "{to}" }}"#
+    );
+    let (code, output, told) = done(text, &request);
+    if code == 0 { Ok(output) } else { Err(told) }
+}
+
+const MACRO: &str = "%\nO1000 (ÇA #100)\nG21 G17 G90 G94 G40 G49 G80 G54\nS100 M3\nG0 X0. Y0. Z0.\n#100=1\nN10 G1 X#100 F100.\n\
+    #100=#100+1\nIF[#100LE3]GOTO10\nM98 P2000\nM30\nO2000\n#1=5.\nWHILE[#1LT7]DO1\nG1 Y#1\n#1=#1+1\nEND1\nM99\n%\n";
+
+#[test]
+fn names_have_all_their_places() {
+    let all = names(MACRO, "fanuc");
+    assert_eq!(
+        all,
+        [
+            "program 1000 2:1-5!",
+            "variable 100 6:1-4! 7:9-12 8:1-4! 8:6-9 9:4-7",
+            "block 10 7:1-3! 9:15-17",
+            "program 2000 10:5-9 12:1-5!",
+            "variable 1 13:1-2! 14:7-8 15:5-6 16:1-2! 16:4-5",
+            "loop 1 14:14-15! 17:3-4",
+        ]
+    );
+}
+
+#[test]
+fn a_linuxcnc_has_names_by_o_words_and_a_sinumerik_by_its_own() {
+    let text = "o100 sub\n#<own>=1\no101 while [#<own> LT 3]\n#<own>=[#<own>+1]\no101 endwhile\no100 endsub\n#<_all>=2\no100 call\nM2\n";
+    assert_eq!(
+        names(text, "linuxcnc"),
+        [
+            "program 100 1:1-4! 6:1-4 8:1-4",
+            "variable OWN 2:2-5! 3:14-17 4:2-5! 4:10-13",
+            "loop 101 3:1-4! 5:1-4",
+            "variable _ALL 7:2-6!",
+        ]
+    );
+    let text = "DEF REAL LEN=3\nR1=LEN\nAGAIN: G1 X=LEN F100\nR1=R1+1\nIF R1<5 GOTOB AGAIN\nM30\n";
+    assert_eq!(
+        names(text, "siemens"),
+        [
+            "variable LEN 1:9-12! 2:3-6 3:12-15",
+            "variable R1 2:0-2! 4:0-2! 4:3-5 5:3-5",
+            "label AGAIN 3:0-5! 5:14-19"
+        ]
+    );
+}
+
+#[test]
+fn all_places_are_renamed_at_once() {
+    let own = renamed(MACRO, "fanuc", 9, 5, "#101").expect("renamed");
+    assert_eq!(
+        own,
+        MACRO
+            .replace("#100=", "#101=")
+            .replace("X#100", "X#101")
+            .replace("#100+", "#101+")
+            .replace("[#100", "[#101")
+    );
+    let own = renamed(MACRO, "fanuc", 9, 16, "20").expect("renamed");
+    assert_eq!(own, MACRO.replace("N10", "N20").replace("GOTO10", "GOTO20"));
+    let own = renamed(MACRO, "fanuc", 10, 6, "3000").expect("renamed");
+    assert_eq!(own, MACRO.replace("2000", "3000"));
+    let text = "DEF REAL LEN=3\nG17 G90 G71 G94 G40 G54\nS100 M3\nG0 X0 Y0 Z0\nG1 X=LEN F100\nM30\n";
+    assert_eq!(renamed(text, "siemens", 1, 10, "WIDTH").expect("renamed"), text.replace("LEN", "WIDTH"));
+}
+
+#[test]
+fn what_cannot_be_shown_to_be_complete_is_refused() {
+    let refused = |text: &str, line, column, to: &str, why: &str| {
+        let told = renamed(text, "fanuc", line, column, to).expect_err(why);
+        assert!(told.contains(why), "{told}");
+    };
+    refused(MACRO, 9, 5, "#2", "lives longer or shorter");
+    refused(MACRO, 9, 5, "1.5", "form");
+    refused(MACRO, 3, 0, "7", "no name at this place");
+    refused(MACRO, 10, 6, "1000", "already");
+    refused(&MACRO.replace("S100 M3", "#[99+2]=1"), 9, 5, "#102", "computed number of a variable");
+    refused(&MACRO.replace("S100 M3", "GOTO[#5+10]"), 9, 16, "20", "computed");
+    refused(&MACRO.replace("#100=1\n", ""), 8, 16, "20", "cannot execute");
+    refused(&MACRO.replace("#100", "#500"), 9, 5, "#501", "other programs");
+    refused(&MACRO.replace("S100 M3", "M98 P#5"), 10, 6, "3000", "computed");
+}
+
+#[test]
+fn a_program_is_laid_out_and_numbered() {
+    let text = "%\nO1\ng21g90g17g40\nN7 g0x1.y2.\nM30\n%\n";
+    let (code, output, told) = done(text, r#"{ "verb": "layout", "file": "part.nc", "from": "fanuc" }"#);
+    assert_eq!((code, output.as_str()), (0, "%\nO1\nG21 G90 G17 G40\nN7 G00 X1. Y2.\nM30\n%\n"), "{told}");
+    let (code, output, told) =
+        done(text, r#"{ "verb": "layout", "file": "part.nc", "from": "fanuc", "number": [10, 10] }"#);
+    assert_eq!(
+        (code, output.as_str()),
+        (0, "%\nO1\nN10 G21 G90 G17 G40\nN20 G00 X1. Y2.\nN30 M30\n%\n"),
+        "{told}"
+    );
+}
+
+/// Each line of a translation has its line of the source; the head and what frames the program have none.
+#[test]
+fn lines_of_a_translation_have_their_source() {
+    let text =
+        "%\nO1\nG21 G17 G90 G94 G40 G49 G80 G54\nT1 M6\nS100 M3\nG0 X0. Y0. Z5.\nG1 Z-1. F100.\nM30\n%\n";
+    let mut engine = Engine::default();
+    engine.put("part.nc", text.as_bytes().to_vec());
+    let request =
+        r#"{ "verb": "translate", "file": "part.nc", "from": "fanuc", "to": "siemens", "map": true }"#;
+    assert_eq!(engine.run(request), 0, "{:?}", engine.output("messages").map(String::from_utf8_lossy));
+    let output = String::from_utf8_lossy(engine.output("output").expect("output")).into_owned();
+    let lines = engine.output("lines").expect("lines").chunks(4);
+    let lines: Vec<u32> = lines.map(|own| u32::from_le_bytes(own.try_into().expect("four bytes"))).collect();
+    assert_eq!(lines.len(), output.lines().count());
+    let of = |block: &str| output.lines().position(|line| line.contains(block)).map(|at| lines[at]);
+    assert_eq!((of("Z-1"), of("M3"), of("M30")), (Some(7), Some(5), Some(8)), "{output}\n{lines:?}");
+    assert_eq!(lines[0], 0);
+}
