@@ -19,5 +19,6 @@ pub mod document;
 pub mod files;
 pub mod path;
 pub mod raw;
+pub mod surroundings;
 pub mod told;
 pub mod tooling;
