@@ -64,7 +64,7 @@ export class Paths {
   set(path: Path | undefined): void {
     this.clear();
     this.path = path;
-    this.thin(1);
+    const pieces = path?.pieces ?? 0;
     if (!path || path.pieces === 0) return;
     this.uniforms.range!.value = ranges(path);
     this.uniforms.seconds!.value = path.seconds;
@@ -78,6 +78,8 @@ export class Paths {
       this.drawn.add(piece(texture, base, moves, wide, this.uniforms, FRAGMENT));
       this.pick.add(piece(texture, base, moves, wide, this.pickUniforms, PICK));
     }
+    // Where there are many, few are drawn until it is known how quick the device is.
+    this.thin(wide ? 1 : Math.ceil(pieces / FEW));
   }
 
   /** So many moves are one line. */
@@ -90,6 +92,13 @@ export class Paths {
     const pieces = this.path?.pieces ?? 0;
     if (pieces / this.every <= FEW) return false;
     this.thin(Math.ceil(pieces / FEW));
+    return true;
+  }
+
+  /** More lines, four times at most; false where each move has its own. */
+  finer(): boolean {
+    if (this.every === 1) return false;
+    this.thin(Math.ceil(this.every / 4));
     return true;
   }
 

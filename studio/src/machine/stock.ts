@@ -160,6 +160,9 @@ const TEXTURES = [
   ["tint", Uint8Array, RedFormat, UnsignedByteType],
 ] as const;
 
+/** Cells along a side of which a part has many. */
+const MANY = 700;
+
 export class StockView {
   readonly drawn: Mesh<BufferGeometry, RawShaderMaterial>;
   readonly pick: Mesh<BufferGeometry, RawShaderMaterial>;
@@ -221,6 +224,8 @@ export class StockView {
     this.uniforms.cell!.value = cell;
     this.uniforms.bottom!.value = low[2];
     if (this.cells[0] === cells[0] && this.cells[1] === cells[1]) return;
+    // Of many cells few are drawn until it is known how quick the device is.
+    if (this.cells[0] === 0 && Math.max(...cells) > MANY) this.uniforms.stride!.value = 2;
     this.cells = cells;
     const [across, along] = cells;
     for (const [name, Type, format, type] of TEXTURES) {
@@ -238,6 +243,14 @@ export class StockView {
   coarser(): boolean {
     if (this.uniforms.stride!.value >= 4) return false;
     this.uniforms.stride!.value *= 2;
+    this.rebuild();
+    return true;
+  }
+
+  /** More points, for a device that draws quickly; false where each cell has its own. */
+  finer(): boolean {
+    if (this.uniforms.stride!.value === 1) return false;
+    this.uniforms.stride!.value /= 2;
     this.rebuild();
     return true;
   }

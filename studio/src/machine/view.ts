@@ -40,7 +40,7 @@ const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 /** Pixels around a pointer that are looked through for a move. */
 const REACH = 9;
 /** So many pictures are timed, and one that takes longer is slow, ms. */
-const [TRIALS, SLOW] = [5, 60];
+const [TRIALS, SLOW] = [7, 60];
 
 /** What is under the pointer: a piece of the path, or the move that cut the part there last. */
 export type Picked = { piece: number } | { move: number } | undefined;
@@ -88,6 +88,8 @@ export class MachineView {
   private path: Path | undefined;
   private asked = false;
   private trials = TRIALS;
+  /** Whether it is known that more would be too much. */
+  private settled = false;
   private fitted = false;
   private unfitted = false;
 
@@ -115,6 +117,7 @@ export class MachineView {
   setPath(path: Path | undefined, cut: Cut | undefined, keepEye: boolean): void {
     this.path = path;
     this.trials = TRIALS;
+    this.settled = false;
     this.paths.set(path);
     this.stock.open(cut);
     this.cut = cut;
@@ -341,10 +344,15 @@ export class MachineView {
     this.trials -= 1;
     this.wait();
     // The first one compiles and uploads.
-    if (this.trials < TRIALS - 1 && performance.now() - began > SLOW) {
-      const coarser = [this.paths.coarser(), this.stock.drawn.visible && this.stock.coarser()];
-      if (coarser.some(Boolean)) this.draw();
-    }
+    if (this.trials < TRIALS - 1) this.judge(performance.now() - began);
+  }
+
+  /** Draws part and path coarser where a picture took too long, and finer where four times as much would not. */
+  private judge(spent: number): void {
+    const both = spent > SLOW ? [this.paths, this.stock].map((one) => one.coarser()) : [];
+    if (both.length > 0) this.settled = true;
+    else if (!this.settled && spent * 4 < SLOW) both.push(this.paths.finer(), this.stock.finer());
+    if (both.some(Boolean)) this.draw();
   }
 
   /** Cells between two lines of a wireframe: so many that lines are apart. */
