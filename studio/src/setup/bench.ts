@@ -35,7 +35,7 @@ export class Bench {
     const clamp = round([20, x + 15, middle, z0, z1 + 10]);
     const file = el("input", { type: "file", accept: ".stl", "aria-label": say("fixtureFile"), class: "unseen", tabindex: -1 });
     file.addEventListener("change", () => void this.take(file.files?.[0]));
-    const buttons = el("div", { class: "fields" }, add("addBlock", () => this.put([...all, jaw])), add("addCylinder", () => this.put([...all, clamp])), add("addStl", () => file.click()), file);
+    const buttons = el("div", { class: "held" }, add("addBlock", () => this.put([...all, jaw])), add("addCylinder", () => this.put([...all, clamp])), add("addStl", () => file.click()), file);
     return el("section", { id: "fixtures" }, el("h2", {}, say("fixtures")), ...rows, buttons);
   }
 
@@ -65,7 +65,7 @@ export class Bench {
     const fields = inputs.map((input, own) => el("label", {}, names[own] ?? "", input));
     const remove = el("button", { class: "chip", "aria-label": `${say("remove")}: ${label}` }, say("remove"));
     remove.addEventListener("click", () => this.replace(at));
-    return el("div", { class: "fields" }, el("b", {}, isFile ? text : label), ...fields, remove);
+    return el("div", { class: "held" }, el("b", {}, isFile ? text : label), ...fields, remove);
   }
 
   private replace(at: number, ...by: string[]): void {
