@@ -14,6 +14,7 @@ use ncc_driver::simulate::cut::{Bench, CutProgram, cut};
 use ncc_driver::simulate::described::Described;
 use ncc_driver::simulate::modes::Watched;
 use ncc_driver::simulate::path::Path;
+use ncc_driver::simulate::surroundings::Surroundings;
 use ncc_driver::simulate::tooling::Fitted;
 use ncc_driver::simulate::{columns, document, files as parts, raw, told, tooling};
 use ncc_driver::source::Source;
@@ -38,12 +39,18 @@ struct Done {
     alarms: Vec<Told>,
     dialect: String,
     assumed: Vec<String>,
+    around: Surroundings,
 }
 
 impl Done {
     /// Its row of the document.
     fn row(&self) -> (document::About<'_>, &CutProgram, &[Told]) {
-        let about = document::About { source: &self.file, dialect: &self.dialect, assumed: &self.assumed };
+        let about = document::About {
+            source: &self.file,
+            dialect: &self.dialect,
+            assumed: &self.assumed,
+            around: &self.around,
+        };
         (about, &self.cut, &self.alarms)
     }
 }
@@ -57,6 +64,7 @@ struct Executed {
     dialect: String,
     profile: Option<std::sync::Arc<Profile>>,
     assumed: Vec<String>,
+    around: Surroundings,
 }
 
 /// Executes a program; `None` where it was refused, which has been told.
@@ -81,8 +89,9 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     assumed.extend(assumed::of_run(&plan, &course));
     assumed.extend(assumed::of_program(&job, &course.diagnostics));
     assumed.extend(told::assumptions(&path, &plan.tables, &course));
+    let around = Surroundings::of(&path, job.from.dialect, profile.as_deref());
     let dialect = job.from.dialect.id.clone();
-    Ok(Some(Executed { path, modes, source, dialect, profile, assumed }))
+    Ok(Some(Executed { path, modes, source, dialect, profile, assumed, around }))
 }
 
 fn moves(path: &Path) -> Result<Vec<u8>, Problem> {
@@ -186,8 +195,8 @@ fn carry_out(
     };
     let (alarms, lines) = told::alarms(&cut, &mut executed.source).map_err(cannot)?;
     told::write_alarms(messages, &alarms, &lines, Loudness::Usual).map_err(cannot)?;
-    let Executed { dialect, assumed, .. } = executed;
-    Ok(Some(Done { file: one.file.clone(), cut, alarms, dialect, assumed }))
+    let Executed { dialect, assumed, around, .. } = executed;
+    Ok(Some(Done { file: one.file.clone(), cut, alarms, dialect, assumed, around }))
 }
 
 /// Cuts the other program from the same raw part, with the same tools: guesses too, so that only the ways differ.

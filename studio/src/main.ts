@@ -135,6 +135,7 @@ wireTheme(() => {
 });
 
 session.project.on((project) => {
+  machine.setBodies(new Map(Object.entries(project?.bodies ?? {})));
   byId("project-name").textContent = project?.name ?? "";
   document.title = project ? `${project.name} · ncc studio` : "ncc studio";
 });

@@ -46,8 +46,10 @@ const [SOON, LATE] = [90, 900];
 const YOUNG = 250;
 /** A part that takes longer is slow, ms. */
 const SLOW = 400;
-/** Cells along the longer side of the part. */
-const CELLS = 512;
+/** Cells along the longer side of the part: where cutting is quick, and where it is not. */
+const [FINE, COARSE] = [1024, 512];
+/** So many cells are lowered in about ten seconds. */
+const MUCH = 2e10;
 
 export class Session {
   readonly state = new Signal<State>("loading");
@@ -167,7 +169,7 @@ export class Session {
     const compare = { file, ...given({ from: to, machine: choices.machineTo }), from_option: choices.toOption };
     const one = { ...request(project.file, choices), ...bench(choices) };
     try {
-      const answer = await heavy.run({ verb: "simulate", ...one, cells: CELLS, compare });
+      const answer = await heavy.run({ verb: "simulate", ...one, cells: this.cells(choices), compare });
       return own === this.generation ? (readBetween(answer) ?? answer.text("messages")) : undefined;
     } catch (error) {
       if (error instanceof Cancelled) return undefined;
@@ -175,6 +177,7 @@ export class Session {
     }
   }
 
+<<<<<<< HEAD
   /** What two programs do, held against each other; and the way of the other one. */
   async compareMoves(other: Other): Promise<[Answer, Answer] | undefined> {
     const [project, heavy] = [this.project.get(), this.engines?.heavy];
@@ -189,6 +192,17 @@ export class Session {
       if (error instanceof Cancelled) return undefined;
       throw error;
     }
+=======
+  /** Cells along the longer side: what was chosen, or as many as are cut soon enough, by the last path and its tools. */
+  private cells({ cells }: Choices): number {
+    const [path, cut] = [this.path.get(), this.cut];
+    if (cells > 0 || !path || !cut) return cells || FINE;
+    const cell = (cut.raw.cell * Math.max(...cut.raw.cells)) / FINE;
+    const of = cut.tools.map((tool) => (tool.diameter / cell) ** 2);
+    let work = 0;
+    for (let piece = 0; piece < path.pieces; piece += 1) work += of[path.tool[piece] as number] ?? 0;
+    return work > MUCH ? COARSE : FINE;
+>>>>>>> 4526f26f52ac9f4c83aa09fed9ac434303363ed9
   }
 
   private async work(): Promise<void> {
@@ -206,6 +220,7 @@ export class Session {
     this.state.set("working");
     try {
       heavy.put(project.file, bytesOf(project, this.text()));
+      for (const [name, bytes] of Object.entries(project.bodies ?? {})) heavy.put(name, bytes);
       await this.steps(heavy, project, () => own === this.generation);
       if (own === this.generation) {
         this.lasted = performance.now() - this.began;
@@ -232,7 +247,7 @@ export class Session {
     if (!current()) return;
     this.tellCheck(check);
     const began = performance.now();
-    const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), cells: CELLS });
+    const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), cells: this.cells(project.choices) });
     this.cutLasted = performance.now() - began;
     if (!current()) return;
     this.tellCut(cut);
@@ -308,9 +323,9 @@ function request(file: string, choices: Choices): Omit<Request, "verb"> {
 }
 
 /** Fields of what it cuts, and with what. */
-function bench({ stock, tools }: Choices): { stock?: string; tools: string[] } {
+function bench({ stock, tools, fixtures }: Choices): { stock?: string; tools: string[]; fixtures: string[] } {
   const stated = Object.entries(tools).map(([number, text]) => `${number}=${text}`);
-  return { ...given({ stock }), tools: stated };
+  return { ...given({ stock }), tools: stated, fixtures };
 }
 
 function translation(file: string, choices: Choices): Omit<Request, "verb"> {

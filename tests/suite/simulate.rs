@@ -10,6 +10,7 @@ use ncc_driver::simulate::compare::Between;
 use ncc_driver::simulate::cut::{Bench, CutProgram, Uncut, cut};
 use ncc_driver::simulate::document::{self, About};
 use ncc_driver::simulate::path::{Path, Recorder};
+use ncc_driver::simulate::surroundings::Surroundings;
 use ncc_driver::simulate::{files, told, tooling};
 use ncc_driver::source::Source;
 use ncc_driver::time::drive::{Plan, Stage, Unwatched, drive};
@@ -74,7 +75,8 @@ fn a_port_makes_the_same_part() {
         let Some((path, mut source)) = moves(program.dialect, &program.file, &program.text) else { continue };
         let Ok(own) = cut_out(path, None) else { continue };
         let (boxes, _) = told::alarms(&own, &mut source).expect("memory");
-        let about = About { source: &program.file, dialect: program.dialect, assumed: &[] };
+        let around = Surroundings::default();
+        let about = About { source: &program.file, dialect: program.dialect, assumed: &[], around: &around };
         let mut text = Vec::new();
         document::write(&mut text, &[(about, &own, &boxes)], None).expect("memory");
         let document: Value = serde_json::from_slice(&text).expect("JSON");

@@ -4,6 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::band::{Band, Form};
 
+/// Pieces of a round corner in an outline.
+const CORNERS: usize = 12;
+
 /// Shapes of cutters, as catalogues have them. Lengths in mm, angles in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
@@ -155,6 +158,24 @@ impl Cutter {
     pub fn height(&self, distance: f64) -> Option<f64> {
         let inside = self.bands.iter().filter(|band| distance <= band.outer);
         inside.map(|band| band.height(distance)).reduce(f64::min)
+    }
+
+    /// Its outline: radius and height above the tip, mm, from the axis outwards; straight between, round corners in
+    /// [`CORNERS`] pieces.
+    pub fn outline(&self) -> Vec<[f64; 2]> {
+        let mut points: Vec<[f64; 2]> = vec![[0.0, self.height(0.0).unwrap_or(0.0)]];
+        for band in &self.bands {
+            let pieces = if matches!(band.form, Form::Round(_)) { CORNERS } else { 1 };
+            points.push([band.inner, band.height(band.inner)]);
+            points.extend((1..=pieces).map(|n| {
+                // Even angles: the steep end of a quarter of a circle has as many pieces as the level one.
+                let part = (FRAC_PI_2 * n as f64 / pieces as f64).sin();
+                let radius = band.inner + (band.outer - band.inner) * part;
+                [radius, band.height(radius)]
+            }));
+        }
+        points.dedup();
+        points
     }
 
     pub(crate) fn bands(&self) -> &[Band] {

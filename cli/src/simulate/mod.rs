@@ -22,6 +22,7 @@ use ncc_driver::simulate::compare::Between;
 use ncc_driver::simulate::cut::{Bench, CutProgram, Uncut, cut};
 use ncc_driver::simulate::document::{self, About};
 use ncc_driver::simulate::path::Recorder;
+use ncc_driver::simulate::surroundings::Surroundings;
 use ncc_driver::simulate::{files as parts, raw, told, tooling};
 use ncc_driver::source::Source;
 use ncc_simulate::{Fixture, HeightMap, Look, Stock};
@@ -39,6 +40,7 @@ struct Done {
     source: Source,
     dialect: String,
     assumed: Vec<String>,
+    around: Surroundings,
 }
 
 /// Runs the verb.
@@ -270,9 +272,10 @@ fn carry_out(
         Some(first) => first.shared_tools(&path, tools),
         None => tools,
     };
+    let around = Surroundings::of(&path, job.from.dialect, shop.profile.as_ref());
     let dialect = job.from.dialect.id.clone();
     match cut(path, tools, bench) {
-        Ok(cut) => Ok(Some(Done { cut, source, dialect, assumed })),
+        Ok(cut) => Ok(Some(Done { cut, source, dialect, assumed, around })),
         Err(uncut @ (Uncut::Unsimulated(..) | Uncut::NoCut)) => {
             let shown = source.shown.clone();
             match told::write_refusal(err, uncut, &mut source)
@@ -347,8 +350,12 @@ fn account(
                 .iter()
                 .zip(&all)
                 .map(|(own, told)| {
-                    let about =
-                        About { source: &own.source.shown, dialect: &own.dialect, assumed: &own.assumed };
+                    let about = About {
+                        source: &own.source.shown,
+                        dialect: &own.dialect,
+                        assumed: &own.assumed,
+                        around: &own.around,
+                    };
                     (about, &own.cut, told.as_slice())
                 })
                 .collect();

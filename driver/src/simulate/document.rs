@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use ncc_simulate::{Shape, Stock};
+use ncc_simulate::{Fixture, Shape, Stock};
 use serde::Serialize;
 
 use super::compare::Between;
 use super::cut::CutProgram;
+use super::surroundings::Surroundings;
 use super::told::message;
 use super::tooling::Known;
 use crate::render::Told;
@@ -29,6 +30,8 @@ pub struct About<'a> {
     pub dialect: &'a str,
     /// What its execution takes for granted, a line each.
     pub assumed: &'a [String],
+    /// What lies around the part.
+    pub around: &'a Surroundings,
 }
 
 #[derive(Serialize)]
@@ -53,7 +56,13 @@ struct Program<'a> {
     /// Seconds.
     time: f64,
     moves: usize,
+    units: &'static str,
     raw: Raw,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fixtures: Vec<Held>,
+    zeros: Vec<Zero<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    travel: Option<[[f64; 3]; 2]>,
     tools: Vec<Tool>,
     /// mm³.
     removed: f64,
@@ -74,6 +83,20 @@ struct Raw {
 }
 
 #[derive(Serialize)]
+struct Held {
+    name: String,
+    form: &'static str,
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct Zero<'a> {
+    name: &'a str,
+    at: [f64; 3],
+}
+
+#[derive(Serialize)]
 struct Tool {
     number: Option<i64>,
     shape: &'static str,
@@ -82,6 +105,14 @@ struct Tool {
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<u32>,
     shape_guessed: bool,
+    /// Radius and height above the tip.
+    outline: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flute: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shank: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holder: Option<[f64; 2]>,
     removed: f64,
     cutting: f64,
     depth: f64,
@@ -148,6 +179,20 @@ fn shape(own: &Shape) -> &'static str {
     }
 }
 
+/// The form of a body.
+fn form(body: &Stock) -> &'static str {
+    match body {
+        Stock::Block { .. } => "block",
+        Stock::Cylinder { .. } => "cylinder",
+        Stock::Body(_) => "body",
+    }
+}
+
+fn held(own: &Fixture) -> Held {
+    let [low, high] = own.shape.extent().map(|corner| corner.map(micro));
+    Held { name: own.name.clone(), form: form(&own.shape), low, high }
+}
+
 /// A tool's number, if it has one.
 fn number(number: i64) -> Option<i64> {
     (number >= 0).then_some(number)
@@ -172,6 +217,10 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
             known,
             line,
             shape_guessed: own.shape_guessed,
+            outline: own.tool.cutter.outline().into_iter().map(|point| point.map(micro)).collect(),
+            flute: own.tool.flute.map(micro),
+            shank: own.tool.shank.map(|radius| micro(radius * 2.0)),
+            holder: own.tool.holder.map(|[radius, from]| [micro(radius * 2.0), micro(from)]),
             removed: milli(worked.volume),
             cutting: micro(worked.cutting),
             depth: micro(worked.depth),
@@ -201,18 +250,18 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
         dialect: about.dialect,
         time: micro(cut.path.end),
         moves: cut.simulation.moves().len(),
+        units: if cut.path.inch { "inch" } else { "mm" },
         raw: Raw {
-            form: match setup.stock {
-                Stock::Block { .. } => "block",
-                Stock::Cylinder { .. } => "cylinder",
-                Stock::Body(_) => "body",
-            },
+            form: form(&setup.stock),
             low,
             high,
             guessed: setup.guessed,
             cells: grid.cells,
             cell: micro(grid.cell),
         },
+        fixtures: setup.fixtures.iter().map(held).collect(),
+        zeros: about.around.zeros.iter().map(|(name, at)| Zero { name, at: at.map(micro) }).collect(),
+        travel: about.around.travel.map(|ends| ends.map(|end| end.map(micro))),
         tools: tools.collect(),
         removed: milli(cut.volume()),
         undercut: milli(cut.simulation.map().hollows_above(cut.simulation.setup().stock.extent()[0][2])),

@@ -20,5 +20,6 @@ pub mod files;
 pub mod modes;
 pub mod path;
 pub mod raw;
+pub mod surroundings;
 pub mod told;
 pub mod tooling;

@@ -76,6 +76,12 @@ pub struct Path {
     pub remarks: BTreeMap<i64, Remark>,
     /// The work offsets in which it moves.
     pub offsets: Vec<u16>,
+    /// Where the zeros of these lie, machine coordinates in mm, axis by axis; `None` where nobody has stated it.
+    pub zeros: Vec<[Option<f64>; 3]>,
+    /// The place in these of the one in which it cuts first.
+    pub datum: usize,
+    /// Whether it cuts in inches.
+    pub inch: bool,
     /// Whether it moves at heights that nobody knows.
     pub has_unknown_heights: bool,
     /// Seconds on the clock at the end.
@@ -163,6 +169,16 @@ impl<'t> Recorder<'t> {
                 centre[1] -= zero[usize::from(plane[1])];
             }
         }
+        path.zeros = path
+            .offsets
+            .iter()
+            .map(|number| match tables.work_offsets.get(number) {
+                Some(zero) => [0, 1, 2].map(|axis| zero[axis].map(mm)),
+                None => [None; 3],
+            })
+            .collect();
+        path.datum = path.offsets.iter().position(|number| Some(*number) == offset).unwrap_or(0);
+        path.inch = inch;
         let unit = if inch { 25.4 } else { 1.0 };
         let said = said
             .into_iter()

@@ -14,6 +14,13 @@ export interface Tool {
   /** Where the diameter comes from: `stated`, `profile`, `comment`, `guess`. */
   known: string;
   shape_guessed: boolean;
+  /** Radius and height above the tip of what cuts, mm, from the axis outwards. */
+  outline: [number, number][];
+  /** Length of what cuts, and diameter above that, mm, where they are known. */
+  flute?: number;
+  shank?: number;
+  /** Diameter, and height above the tip where it begins, mm. */
+  holder?: [number, number];
   /** mm³ */
   removed: number;
   /** Seconds at feed. */
@@ -29,6 +36,15 @@ export interface Alarm extends Omit<Problem, "code" | "time"> {
   guessed: boolean;
 }
 
+/** What holds the part: the box around it. */
+export interface Fixture {
+  /** As it was stated; a file's name of a body. */
+  name: string;
+  form: "block" | "cylinder" | "body";
+  low: Point;
+  high: Point;
+}
+
 /** A program's entry in the document of `simulate`. */
 export interface Cut {
   raw: {
@@ -41,6 +57,12 @@ export interface Cut {
     /** Side of a cell, mm. */
     cell: number;
   };
+  units: "mm" | "inch";
+  fixtures?: Fixture[];
+  /** Zeros of work offsets; that of the first cut is the origin. */
+  zeros: { name: string; at: Point }[];
+  /** Where the axes of the machine go, least and greatest coordinates, where that is known. */
+  travel?: [Point, Point];
   tools: Tool[];
   removed: number;
   alarms: Alarm[];

@@ -77,8 +77,10 @@ export function readPath(bytes: Uint8Array, modes: Uint8Array | undefined): Path
     const column = head.columns.find((one) => one.name === name);
     if (!column) throw new Error(`path: no column ${name}`);
     const at = end + 1 + column.offset;
-    // A copy begins where its type may.
-    found[name] = new Type(bytes.slice(at, at + head.pieces * Type.BYTES_PER_ELEMENT).buffer);
+    // Columns begin where their type may, so that they are read in place; of an answer that does not, in a copy.
+    const fits = (bytes.byteOffset + at) % Type.BYTES_PER_ELEMENT === 0;
+    const [buffer, from] = fits ? [bytes.buffer, bytes.byteOffset + at] : [bytes.slice(at, at + head.pieces * Type.BYTES_PER_ELEMENT).buffer, 0];
+    found[name] = new Type(buffer as ArrayBuffer, from, head.pieces);
   }
   const columns = found as unknown as Columns;
   const seconds = head.pieces > 0 ? (columns.t1[head.pieces - 1] ?? 0) : 0;

@@ -24,8 +24,11 @@ import { CHUNK, FRAGMENT, PICK, ROW, TEXELS, VERTEX } from "./shaders";
 /** What lines of some width are drawn up to; more moves are lines of the device, a third of the work. */
 const WIDE = 300_000;
 
-export type Colouring = "kind" | "tool" | "feed" | "depth";
-const COLOURINGS: Colouring[] = ["kind", "tool", "feed", "depth"];
+export const COLOURINGS = ["kind", "tool", "operation", "feed", "depth", "time"] as const;
+export type Colouring = (typeof COLOURINGS)[number];
+
+/** So many lines are drawn in the time of a picture by a device that draws slowly. */
+const FEW = 40_000;
 
 /** Uniforms that all pieces have in common. */
 function shared(): Record<string, IUniform> {
@@ -43,6 +46,10 @@ function shared(): Record<string, IUniform> {
     ground: { value: new Color() },
     colouring: { value: 0 },
     range: { value: new Vector4(0, 1, 0, 1) },
+    seconds: { value: 1 },
+    scales: { value: [0, 1, 2, 3].map(() => new Color()) },
+    every: { value: 1 },
+    section: { value: new Vector4(0, 0, 0, 1) },
   };
 }
 
@@ -52,20 +59,61 @@ export class Paths {
   readonly pick = new Group();
   private readonly uniforms = shared();
   private readonly pickUniforms = shared();
+  private path: Path | undefined;
 
   set(path: Path | undefined): void {
     this.clear();
+    this.path = path;
+    const pieces = path?.pieces ?? 0;
     if (!path || path.pieces === 0) return;
     this.uniforms.range!.value = ranges(path);
+    this.uniforms.seconds!.value = path.seconds;
+    const operations = new Operations(path);
     const wide = path.pieces <= WIDE;
     this.uniforms.width!.value = wide ? 1.6 : 0;
     this.pickUniforms.width!.value = wide ? 7 : 0;
     for (let base = 0; base < path.pieces; base += CHUNK) {
       const moves = Math.min(CHUNK, path.pieces - base);
-      const texture = textureOf(path, base, moves);
+      const texture = textureOf(path, base, moves, operations);
       this.drawn.add(piece(texture, base, moves, wide, this.uniforms, FRAGMENT));
       this.pick.add(piece(texture, base, moves, wide, this.pickUniforms, PICK));
     }
+    // Where there are many, few are drawn until it is known how quick the device is.
+    this.thin(wide ? 1 : Math.ceil(pieces / FEW));
+  }
+
+  /** So many moves are one line. */
+  get every(): number {
+    return this.uniforms.every!.value as number;
+  }
+
+  /** A device that draws slowly has fewer lines, each of several moves; false where there are few already. */
+  coarser(): boolean {
+    const pieces = this.path?.pieces ?? 0;
+    if (pieces / this.every <= FEW) return false;
+    this.thin(Math.ceil(pieces / FEW));
+    return true;
+  }
+
+  /** More lines, four times at most; false where each move has its own. */
+  finer(): boolean {
+    if (this.every === 1) return false;
+    this.thin(Math.ceil(this.every / 4));
+    return true;
+  }
+
+  private thin(every: number): void {
+    this.uniforms.every!.value = this.pickUniforms.every!.value = every;
+    for (const group of [this.drawn, this.pick]) {
+      for (const child of group.children as Mesh<BufferGeometry, RawShaderMaterial>[]) {
+        const moves = child.material.uniforms.count!.value as number;
+        child.geometry.setDrawRange(0, Math.ceil(moves / every) * (child instanceof Mesh ? 6 : 2));
+      }
+    }
+  }
+
+  setSection(plane: Vector4): void {
+    this.uniforms.section!.value = this.pickUniforms.section!.value = plane;
   }
 
   setNow(move: number, share: number): void {
@@ -99,6 +147,7 @@ export class Paths {
     const kinds = ["rapid", "feed", "clockwise", "counterclockwise"].map((name) => ink(`--c-move-${name}`));
     this.uniforms.kinds!.value = kinds;
     this.uniforms.tools!.value = Array.from({ length: 8 }, (_, at) => ink(`--c-tool-${at}`));
+    this.uniforms.scales!.value = [0, 1, 2, 3].map((at) => ink(`--scale-${at}`));
     this.uniforms.mark!.value = ink("--c-move-marked");
     this.uniforms.ground!.value = ink("--ground");
   }
@@ -115,7 +164,23 @@ export class Paths {
   }
 }
 
-function textureOf(path: Path, base: number, moves: number): DataTexture {
+/** Operations of a path: each call of a tool begins one. Asked in the order of the pieces. */
+export class Operations {
+  private piece = 0;
+  private operation = 0;
+
+  constructor(private readonly path: Path) {}
+
+  /** The operation of a piece that is not before the last one asked. */
+  at(piece: number): number {
+    for (; this.piece < piece; this.piece += 1) {
+      if (this.path.tool[this.piece] !== this.path.tool[this.piece + 1]) this.operation += 1;
+    }
+    return this.operation;
+  }
+}
+
+function textureOf(path: Path, base: number, moves: number, operations: Operations): DataTexture {
   const rows = Math.ceil(moves / ROW);
   const data = new Float32Array(rows * ROW * TEXELS * 4);
   for (let own = 0; own < moves; own += 1) {
@@ -131,11 +196,14 @@ function textureOf(path: Path, base: number, moves: number): DataTexture {
     data[to + 8] = path.tool[at] as number;
     data[to + 9] = path.feed[at] as number;
     data[to + 10] = path.t0[at] as number;
+    data[to + 11] = operations.at(at);
   }
   // Without NEAREST, textures of floats read as zeros, and no error says so.
   const texture = new DataTexture(data, ROW * TEXELS, rows, RGBAFormat, FloatType);
   texture.minFilter = texture.magFilter = NearestFilter;
   texture.needsUpdate = true;
+  // The graphics card has it now; a second copy here would cost as much as all columns of the path.
+  texture.onUpdate = () => ((texture.image as { data: unknown }).data = null);
   return texture;
 }
 
@@ -154,7 +222,7 @@ function piece(
     vertexShader: VERTEX,
     fragmentShader,
     side: DoubleSide,
-    uniforms: { ...uniforms, moves: { value: texture }, base: { value: base } },
+    uniforms: { ...uniforms, moves: { value: texture }, base: { value: base }, count: { value: moves } },
   });
   const made = wide ? new Mesh(geometry, material) : new LineSegments(geometry, material);
   // It has no vertices that a box could be made of.
@@ -163,7 +231,7 @@ function piece(
 }
 
 /** Least and greatest feed and height of what cuts. */
-function ranges(path: Path): Vector4 {
+export function ranges(path: Path): Vector4 {
   let [low, high] = [Infinity, -Infinity];
   for (let at = 0; at < path.pieces; at += 1) {
     const feed = path.feed[at] as number;
@@ -172,7 +240,7 @@ function ranges(path: Path): Vector4 {
     high = Math.max(high, feed);
   }
   const { low: bottom, high: top } = path.box;
-  return new Vector4(low, high, bottom[2], top[2]);
+  return new Vector4(Number.isFinite(low) ? low : 0, high > 0 ? high : 0, bottom[2], top[2]);
 }
 
 /** A corner of a box as a vector. */

@@ -2,13 +2,17 @@
 
 import {
   BufferAttribute,
+  BoxGeometry,
   BufferGeometry,
   Color,
+  CylinderGeometry,
   DirectionalLight,
+  DoubleSide,
   Group,
   HemisphereLight,
   LatheGeometry,
   LineBasicMaterial,
+  LineDashedMaterial,
   LineSegments,
   Mesh,
   MeshLambertMaterial,
@@ -16,6 +20,8 @@ import {
   type Material,
   type Object3D,
 } from "three";
+import { STLLoader } from "three/addons/loaders/STLLoader.js";
+import type { Fixture, Tool } from "../engine/part";
 import type { Box } from "../engine/path";
 
 /** A step of 1, 2 or 5 and zeros, so that about so many fit in. */
@@ -57,31 +63,74 @@ export function axesOf(length: number): Group {
   return group;
 }
 
-/** A tool with its tip in the origin, of its shape and diameter. What is not known of it (flutes, shank, holder) is not drawn. */
-export function toolBody(shape: string, diameter: number): Group {
-  const radius = Math.max(diameter / 2, 1e-3);
-  const length = Math.max(diameter * 3, 20);
-  // From the tip up: pairs of radius and height.
-  const outline = [new Vector2(0, 0)];
-  if (shape === "ball" || shape === "lollipop") {
-    for (let at = 1; at <= 12; at += 1) {
-      const angle = (at / 12) * (Math.PI / 2);
-      outline.push(new Vector2(radius * Math.sin(angle), radius * (1 - Math.cos(angle))));
-    }
-  } else if (shape === "drill") {
-    // A point of 118 degrees is drawn: the common one.
-    outline.push(new Vector2(radius, radius / Math.tan((59 * Math.PI) / 180)));
-  } else if (shape === "chamfer") {
-    outline.push(new Vector2(radius, radius));
-  } else {
-    outline.push(new Vector2(radius, 0));
-  }
-  outline.push(new Vector2(radius, length), new Vector2(0, length));
-  const material = new MeshLambertMaterial({ color: "#d8a33c", transparent: true, opacity: 0.5, depthWrite: false });
+/** A tool with its tip in the origin: what cuts, and shank and holder as far as they are known. */
+export function toolBody(tool: Tool): Group {
+  const radius = Math.max(...tool.outline.map(([own]) => own), 1e-3);
+  const foot = Math.max(...tool.outline.map(([, height]) => height));
+  const long = Math.max(foot, tool.flute ?? Math.max(radius * 6, 20));
+  const group = new Group();
+  const points = tool.outline.map(([own, height]) => new Vector2(own, height));
+  group.add(turned([...points, new Vector2(radius, long), new Vector2(0, long)], "#d8a33c", 0.5));
+  const { shank, holder } = tool;
+  const from = holder ? Math.max(holder[1], long) : long + 20;
+  if (shank !== undefined && from > long) group.add(cylinder(shank / 2, long, from, "#8b949c"));
+  if (holder) group.add(cylinder(holder[0] / 2, holder[1], holder[1] + Math.max(holder[0], 20), "#4f5962"));
+  return group;
+}
+
+function cylinder(radius: number, from: number, to: number, color: string): Mesh {
+  return turned([[0, from], [radius, from], [radius, to], [0, to]].map(([r, z]) => new Vector2(r, z)), color, 0.65);
+}
+
+/** A body of revolution of pairs of radius and height. */
+function turned(outline: Vector2[], color: string, opacity: number): Mesh {
+  const material = new MeshLambertMaterial({ color, transparent: true, opacity, depthWrite: false });
   const body = new Mesh(new LatheGeometry(outline, 40), material);
   // A lathe turns about Y; the tool stands along Z.
   body.rotation.x = Math.PI / 2;
+  return body;
+}
+
+/** The edges of a box, dashed. */
+export function frameOf(box: Box, color: Color, dash: number): LineSegments {
+  const [low, high] = [box.low, box.high];
+  const points: number[] = [];
+  for (let axis = 0; axis < 3; axis += 1) {
+    for (let corner = 0; corner < 4; corner += 1) {
+      const ends = [low, high].map((end) => {
+        const at = [0, 0, 0];
+        at[axis] = end[axis] as number;
+        at[(axis + 1) % 3] = (corner & 1 ? high : low)[(axis + 1) % 3] as number;
+        at[(axis + 2) % 3] = (corner & 2 ? high : low)[(axis + 2) % 3] as number;
+        return at;
+      });
+      points.push(...ends.flat());
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
+  const made = new LineSegments(geometry, new LineDashedMaterial({ color, dashSize: dash, gapSize: dash * 0.7 }));
+  // Each edge begins with a dash, so that edges over each other are one.
+  const along = points.flatMap((_, at) => (at % 6 === 0 ? [0, Math.hypot(...[0, 1, 2].map((axis) => (points[at + 3 + axis] as number) - (points[at + axis] as number)))] : []));
+  geometry.setAttribute("lineDistance", new BufferAttribute(new Float32Array(along), 1));
+  return made;
+}
+
+/** What holds the part: a box, a cylinder, or a body of triangles. */
+export function heldBody(fixture: Fixture, stl: ArrayBuffer | undefined, color: Color): Group {
+  const { low, high, form } = fixture;
+  const size = [0, 1, 2].map((axis) => (high[axis] as number) - (low[axis] as number)) as [number, number, number];
+  const middle = [0, 1, 2].map((axis) => ((high[axis] as number) + (low[axis] as number)) / 2) as [number, number, number];
   const group = new Group();
+  const material = new MeshLambertMaterial({ color, transparent: true, opacity: 0.75, side: DoubleSide });
+  if (form === "body" && stl) {
+    group.add(new Mesh(new STLLoader().parse(stl), material));
+    return group;
+  }
+  const round = form === "cylinder";
+  const body = new Mesh(round ? new CylinderGeometry(size[0] / 2, size[0] / 2, size[2], 48) : new BoxGeometry(...size), material);
+  if (round) body.rotation.x = Math.PI / 2;
+  body.position.set(...middle);
   group.add(body);
   return group;
 }

@@ -1,5 +1,5 @@
 // The moves drawn without a vertex: each vertex pulls its move out of a texture by its number. A move is three texels:
-// start and kind, end and line, then tool, feed and the moment when it begins. To show another moment changes two numbers.
+// start and kind, end and line, then tool, feed, the moment when it begins, and the operation. To show another moment changes two numbers.
 
 export const TEXELS = 3;
 /** Moves in a row of the texture, and in one texture. */
@@ -16,9 +16,12 @@ export const VERTEX = /* glsl */ `${HEAD}
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform sampler2D moves;
-/** Number of the first move of this texture, and of the move that is under way. */
+/** Number of the first move of this texture, how many it has, and the move that is under way. */
 uniform int base;
+uniform int count;
 uniform int now;
+/** A line stands for so many moves: one, or more on a device that draws slowly. */
+uniform int every;
 /** Pixels of the picture, and width of a line in them; 0 draws lines of the device. */
 uniform vec2 size;
 uniform float width;
@@ -30,6 +33,7 @@ uniform int future;
 
 out float along;
 out float pixels;
+out vec3 place;
 flat out int kind;
 flat out int number;
 flat out int isMarked;
@@ -40,14 +44,17 @@ void main() {
   int corners = width > 0.0 ? 6 : 2;
   int own = gl_VertexID / corners;
   int corner = gl_VertexID - own * corners;
+  own *= every;
+  int last = min(own + every, count) - 1;
   int x = (own % ${ROW}) * ${TEXELS};
   int y = own / ${ROW};
   vec4 from = texelFetch(moves, ivec2(x, y), 0);
-  vec4 to = texelFetch(moves, ivec2(x + 1, y), 0);
+  vec4 to = texelFetch(moves, ivec2((last % ${ROW}) * ${TEXELS} + 1, last / ${ROW}), 0);
   more = texelFetch(moves, ivec2(x + 2, y), 0);
+  float line = every == 1 ? to.w : texelFetch(moves, ivec2(x + 1, y), 0).w;
   kind = int(from.w);
   number = base + own;
-  isMarked = int(to.w >= marked.x && to.w <= marked.y);
+  isMarked = int(to.w >= marked.x && line <= marked.y);
   depth = to.z;
   bool hidden = (shown & (1 << (kind & 3))) == 0 || (future == 0 && number > now);
   vec4 a = projectionMatrix * modelViewMatrix * vec4(from.xyz, 1.0);
@@ -56,6 +63,7 @@ void main() {
   pixels = length(way);
   bool ahead = corners == 2 ? corner == 1 : corner == 1 || corner == 2 || corner == 4;
   along = ahead ? 1.0 : 0.0;
+  place = ahead ? to.xyz : from.xyz;
   gl_Position = ahead ? b : a;
   if (width > 0.0) {
     vec2 side = pixels > 0.001 ? vec2(-way.y, way.x) / pixels : vec2(0.0, 1.0);
@@ -73,15 +81,28 @@ void main() {
 const VARYINGS = /* glsl */ `${HEAD}
 in float along;
 in float pixels;
+in vec3 place;
 flat in int kind;
 flat in int number;
 flat in int isMarked;
 flat in vec4 more;
 flat in float depth;
 uniform int now;
+uniform int every;
 uniform float share;
 uniform float width;
+/** A section keeps what lies below its plane: a direction, and how far along it. */
+uniform vec4 section;
 out vec4 ink;
+`;
+
+/** Least to greatest by four colours, light enough for both grounds; the page's legend has the same. */
+export const SCALE = /* glsl */ `
+uniform vec3 scales[4];
+vec3 scale(float at) {
+  float x = clamp(at, 0.0, 1.0) * 3.0;
+  return x < 1.0 ? mix(scales[0], scales[1], x) : x < 2.0 ? mix(scales[1], scales[2], x - 1.0) : mix(scales[2], scales[3], x - 2.0);
+}
 `;
 
 export const FRAGMENT = /* glsl */ `${VARYINGS}
@@ -89,31 +110,25 @@ uniform vec3 kinds[4];
 uniform vec3 tools[8];
 uniform vec3 mark;
 uniform vec3 ground;
-/** 0 by kind, 1 by tool, 2 by feed, 3 by depth. */
+/** As COLOURINGS of the paths have it. */
 uniform int colouring;
-/** Least and greatest feed, then height. */
+/** Least and greatest feed, then height; and the seconds of all moves. */
 uniform vec4 range;
-
-/** Blue, green, yellow, red: light enough for both grounds. */
-vec3 scale(float at) {
-  float x = clamp(at, 0.0, 1.0) * 3.0;
-  vec3 a = vec3(0.23, 0.44, 0.88);
-  vec3 b = vec3(0.15, 0.67, 0.52);
-  vec3 c = vec3(0.90, 0.68, 0.18);
-  vec3 d = vec3(0.84, 0.29, 0.25);
-  return x < 1.0 ? mix(a, b, x) : x < 2.0 ? mix(b, c, x - 1.0) : mix(c, d, x - 2.0);
-}
-
+uniform float seconds;
+${SCALE}
 void main() {
+  if (dot(section.xyz, place) > section.w) discard;
   // Rapid moves are dashed.
   bool rapid = kind == 0 || kind == 4;
   if (rapid && isMarked == 0 && mod(along * pixels, 9.0) > 5.5 && pixels > 9.0) discard;
   vec3 own = kinds[kind & 3];
   if (colouring == 1) own = tools[int(more.x) & 7];
-  if (colouring == 2 && !rapid) own = scale((more.y - range.x) / max(range.y - range.x, 1e-6));
-  if (colouring == 3) own = scale((depth - range.z) / max(range.w - range.z, 1e-6));
+  if (colouring == 2) own = tools[int(more.w) & 7];
+  if (colouring == 3 && !rapid) own = scale((more.y - range.x) / max(range.y - range.x, 1e-6));
+  if (colouring == 4) own = scale((depth - range.z) / max(range.w - range.z, 1e-6));
+  if (colouring == 5) own = scale(more.z / max(seconds, 1e-6));
   if (isMarked == 1) own = mark;
-  bool done = number < now || (number == now && along <= share);
+  bool done = along * float(every) <= float(now - number) + share;
   float faint = done || isMarked == 1 ? 0.0 : 0.72;
   // A rapid move says less than a cut.
   if (rapid && done && isMarked == 0) faint = 0.25;
@@ -124,6 +139,7 @@ void main() {
 /** The number of the move as a colour; black is none. */
 export const PICK = /* glsl */ `${VARYINGS}
 void main() {
+  if (dot(section.xyz, place) > section.w) discard;
   int id = number + 1;
   ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 255.0) / 255.0;
 }

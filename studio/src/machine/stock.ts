@@ -13,10 +13,26 @@ import {
   NearestFilter,
   RawShaderMaterial,
   RedFormat,
+  RedIntegerFormat,
+  UnsignedByteType,
+  UnsignedIntType,
   Vector2,
+  Vector4,
   type IUniform,
 } from "three";
 import type { Cut, Heights } from "../engine/part";
+import { SCALE } from "./shaders";
+
+/** Where the cells are, and how the grid that is drawn lies on them. */
+export const MAP = /* glsl */ `
+uniform ivec2 cells;
+uniform vec2 low;
+uniform float cell;
+uniform float bottom;
+/** Cells between two points. */
+uniform int stride;
+uniform ivec2 points;
+`;
 
 const VERTEX = /* glsl */ `
 precision highp float;
@@ -25,13 +41,7 @@ precision highp sampler2D;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform sampler2D heights;
-uniform ivec2 cells;
-uniform vec2 low;
-uniform float cell;
-uniform float bottom;
-/** Cells between two points. */
-uniform int stride;
-uniform ivec2 points;
+${MAP}
 out vec3 place;
 out vec2 at;
 /** Which way the surface looks, and how near a wall of the border is. */
@@ -70,16 +80,23 @@ const FRAGMENT = /* glsl */ `
 precision highp float;
 precision highp int;
 precision highp sampler2D;
-uniform sampler2D last;
-uniform sampler2D heights;
+precision highp usampler2D;
+uniform usampler2D last;
+uniform sampler2D tint;
 uniform vec3 raw;
 uniform vec3 cut;
 uniform vec3 tools[8];
-uniform int byTool;
+/** 0 the part's own colour, 1 by the number in the tint, 2 by the scale in the tint, 3 by height. */
+uniform int colouring;
+uniform vec2 range;
 uniform vec2 marked;
 uniform vec3 mark;
 uniform vec3 sun;
 uniform vec3 eye;
+uniform vec4 section;
+/** Metalness, roughness, brightness of the light; cells between two lines of a wireframe, 0 for none. */
+uniform vec4 look;
+${SCALE}
 in vec3 place;
 in vec2 at;
 in vec3 face;
@@ -88,20 +105,33 @@ flat in int isGone;
 out vec4 ink;
 
 void main() {
-  if (isGone == 1) discard;
+  if (isGone == 1 || dot(section.xyz, place) > section.w) discard;
+  if (look.w > 0.0) {
+    vec2 net = at / look.w;
+    vec2 off = abs(fract(net + 0.5) - 0.5) / max(fwidth(net), vec2(1e-5));
+    if (min(off.x, off.y) > 0.7) discard;
+  }
   vec3 normal = normalize(border > 0.001 ? cross(dFdx(place), dFdy(place)) : face);
   if (dot(normal, eye) < 0.0) normal = -normal;
-  // Move and tool of a cell: moves in whole numbers, the tool's ink in the fraction.
-  float number = texelFetch(last, ivec2(at + 0.5), 0).r;
-  float touched = step(0.5, number);
+  ivec2 own_cell = ivec2(at + 0.5);
+  uint move = texelFetch(last, own_cell, 0).r;
+  float touched = move > 0u ? 1.0 : 0.0;
   vec3 own = mix(raw, cut, touched);
-  if (byTool == 1 && touched > 0.5) own = mix(own, tools[int(fract(number) * 8.0 + 0.5) & 7], 0.55);
-  float move = floor(number);
-  if (move >= marked.x && move <= marked.y) own = mix(own, mark, 0.65);
+  float value = texelFetch(tint, own_cell, 0).r * 255.0;
+  if (touched > 0.5 && colouring == 1) own = mix(own, tools[int(value + 0.5) & 7], 0.7);
+  if (touched > 0.5 && colouring == 2) own = mix(own, scale(value / 255.0), 0.8);
+  if (touched > 0.5 && colouring == 3) own = mix(own, scale((place.z - range.x) / max(range.y - range.x, 1e-6)), 0.8);
+  if (float(move) >= marked.x && float(move) <= marked.y) own = mix(own, mark, 0.65);
   float lit = max(dot(normal, sun), 0.0);
-  float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), 24.0) * 0.14 * touched * smoothstep(0.3, 0.8, normal.z);
+  // Metal returns its own colour in a highlight and little else; what is rough spreads it.
+  float metal = look.x;
+  float sharp = exp2(1.0 + 8.0 * (1.0 - look.y));
+  float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), sharp) * (1.0 - look.y) * mix(0.3, 1.1, metal);
+  float around = 0.5 + 0.5 * reflect(-eye, normal).z;
   float side = 0.5 + 0.5 * normal.z;
-  ink = vec4(own * (0.50 + 0.16 * side + 0.42 * lit) + shine, 1.0);
+  vec3 matt = own * (0.50 + 0.16 * side + 0.42 * lit * look.z);
+  vec3 mirror = own * mix(0.35 + 0.45 * lit * look.z, 0.45 + 0.65 * around, 1.0 - look.y);
+  ink = vec4(mix(matt, mirror, metal * 0.8) + mix(vec3(1.0), own, metal) * shine * look.z * touched, 1.0);
 }
 `;
 
@@ -109,25 +139,41 @@ void main() {
 const PICK = /* glsl */ `
 precision highp float;
 precision highp int;
-precision highp sampler2D;
-uniform sampler2D last;
+precision highp usampler2D;
+uniform usampler2D last;
+uniform vec4 section;
 in vec3 place;
 in vec2 at;
 flat in int isGone;
 out vec4 ink;
 void main() {
-  if (isGone == 1) discard;
-  int id = int(floor(texelFetch(last, ivec2(at + 0.5), 0).r));
+  if (isGone == 1 || dot(section.xyz, place) > section.w) discard;
+  int id = int(texelFetch(last, ivec2(at + 0.5), 0).r);
   ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 128.0) / 255.0;
 }
 `;
 
+/** Textures of a part: of each cell the height, the last move, and what colours it. */
+const TEXTURES = [
+  ["heights", Float32Array, RedFormat, FloatType],
+  ["last", Uint32Array, RedIntegerFormat, UnsignedIntType],
+  ["tint", Uint8Array, RedFormat, UnsignedByteType],
+] as const;
+
+/** Cells along a side of which a part has many. */
+const MANY = 700;
+
 export class StockView {
   readonly drawn: Mesh<BufferGeometry, RawShaderMaterial>;
   readonly pick: Mesh<BufferGeometry, RawShaderMaterial>;
-  private readonly uniforms: Record<string, IUniform> = {
+  readonly uniforms: Record<string, IUniform> = {
     heights: { value: null },
     last: { value: null },
+    tint: { value: null },
+    scales: { value: [0, 1, 2, 3].map(() => new Color()) },
+    section: { value: new Vector4(0, 0, 0, 1) },
+    look: { value: new Vector4(0, 0.6, 1, 0) },
+    range: { value: new Vector2(0, 1) },
     cells: { value: new Vector2() },
     low: { value: new Vector2() },
     cell: { value: 1 },
@@ -137,7 +183,7 @@ export class StockView {
     raw: { value: new Color() },
     cut: { value: new Color() },
     tools: { value: Array.from({ length: 8 }, () => new Color()) },
-    byTool: { value: 0 },
+    colouring: { value: 0 },
     marked: { value: new Vector2(-1, -1) },
     mark: { value: new Color() },
     sun: { value: [-0.33, -0.52, 0.79] },
@@ -178,12 +224,16 @@ export class StockView {
     this.uniforms.cell!.value = cell;
     this.uniforms.bottom!.value = low[2];
     if (this.cells[0] === cells[0] && this.cells[1] === cells[1]) return;
+    // Of many cells few are drawn until it is known how quick the device is.
+    if (this.cells[0] === 0 && Math.max(...cells) > MANY) this.uniforms.stride!.value = 2;
     this.cells = cells;
-    for (const name of ["heights", "last"]) {
+    const [across, along] = cells;
+    for (const [name, Type, format, type] of TEXTURES) {
       (this.uniforms[name]!.value as DataTexture | null)?.dispose();
-      const texture = new DataTexture(new Float32Array(cells[0] * cells[1]), ...cells, RedFormat, FloatType);
+      const texture = new DataTexture(new Type(across * along), across, along, format, type);
       texture.minFilter = texture.magFilter = NearestFilter;
-      texture.unpackAlignment = 4;
+      texture.unpackAlignment = name === "tint" ? 1 : 4;
+      texture.needsUpdate = true;
       this.uniforms[name]!.value = texture;
     }
     this.rebuild();
@@ -193,6 +243,14 @@ export class StockView {
   coarser(): boolean {
     if (this.uniforms.stride!.value >= 4) return false;
     this.uniforms.stride!.value *= 2;
+    this.rebuild();
+    return true;
+  }
+
+  /** More points, for a device that draws quickly; false where each cell has its own. */
+  finer(): boolean {
+    if (this.uniforms.stride!.value === 1) return false;
+    this.uniforms.stride!.value /= 2;
     this.rebuild();
     return true;
   }
@@ -209,22 +267,22 @@ export class StockView {
     }
   }
 
-  /** The part at a moment; `toolOf` gives the place of a move's tool. */
-  show(part: Heights, toolOf: (move: number) => number): void {
-    const heights = this.uniforms.heights!.value as DataTexture;
-    const last = this.uniforms.last!.value as DataTexture;
-    const target = heights.image.data as unknown as Float32Array;
-    if (target.length !== part.heights.length) return;
-    for (let at = 0; at < target.length; at += 1) {
-      const height = part.heights[at] as number;
-      target[at] = height > -1e20 ? height : -1e30;
+  /** The part at a moment: its columns go to the graphics card as they are. */
+  show(part: Heights): void {
+    for (const [name, own] of [["heights", part.heights], ["last", part.last]] as const) {
+      const texture = this.uniforms[name]!.value as DataTexture | null;
+      if (!texture || own.length !== this.cells[0] * this.cells[1]) return;
+      (texture.image as { data: unknown }).data = own;
+      texture.needsUpdate = true;
     }
-    const moves = last.image.data as unknown as Float32Array;
-    for (let at = 0; at < moves.length; at += 1) {
-      const move = part.last[at] as number;
-      moves[at] = move === 0 ? 0 : move + (toolOf(move) % 8) / 8;
-    }
-    heights.needsUpdate = last.needsUpdate = true;
+  }
+
+  /** A number for each cell, 0 to 255: of a colour, or a place on the scale. */
+  setTint(tint: Uint8Array): void {
+    const texture = this.uniforms.tint!.value as DataTexture | null;
+    if (!texture || tint.length !== this.cells[0] * this.cells[1]) return;
+    (texture.image as { data: unknown }).data = tint;
+    texture.needsUpdate = true;
   }
 
   setVisible(on: boolean): void {
@@ -235,8 +293,10 @@ export class StockView {
     this.uniforms.marked!.value.set(first, last);
   }
 
-  setByTool(on: boolean): void {
-    this.uniforms.byTool!.value = Number(on);
+  /** 0 the part's own colour, 1 by the number in the tint, 2 by its place on the scale, 3 by height between two. */
+  setColouring(how: 0 | 1 | 2 | 3, low = 0, high = 1): void {
+    this.uniforms.colouring!.value = how;
+    this.uniforms.range!.value.set(low, high);
   }
 
   /** Where the eye is, as a direction. */
@@ -248,6 +308,7 @@ export class StockView {
     this.uniforms.raw!.value = ink("--part-raw");
     this.uniforms.cut!.value = ink("--part-cut");
     this.uniforms.mark!.value = ink("--c-move-marked");
+    this.uniforms.scales!.value = [0, 1, 2, 3].map((at) => ink(`--scale-${at}`));
     this.uniforms.tools!.value = Array.from({ length: 8 }, (_, at) => ink(`--c-tool-${at}`));
   }
 }
@@ -259,7 +320,10 @@ function triangles(across: number, along: number): Uint32Array {
   for (let row = 0; row + 1 < along; row += 1) {
     for (let column = 0; column + 1 < across; column += 1) {
       const corner = row * across + column;
-      index.set([corner, corner + 1, corner + across, corner + 1, corner + across + 1, corner + across], at);
+      index[at] = corner;
+      index[at + 1] = index[at + 3] = corner + 1;
+      index[at + 2] = index[at + 5] = corner + across;
+      index[at + 4] = corner + across + 1;
       at += 6;
     }
   }

@@ -1,20 +1,29 @@
 // The picture of the machine: three.js, an orthographic camera that goes around, and a drawing only when something changed.
 
 import {
+  BufferGeometry,
   Color,
   Group,
+  Line,
+  LineBasicMaterial,
   OrthographicCamera,
   Scene,
   Vector3,
+  Vector4,
   WebGLRenderTarget,
   WebGLRenderer,
-  type LineSegments,
+  type Object3D,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Cut, Tool } from "../engine/part";
 import type { Box, Path } from "../engine/path";
+import { Labels } from "./labels";
+import { sunOf, type Look } from "./look-card";
 import { Paths, corner, type Colouring } from "./paths";
-import { axesOf, free, gridOf, lights, toolBody } from "./scene";
+import { endsOf, seenAt, type Eye, type Point } from "./pick";
+import { Plan } from "./plan";
+import { axesOf, frameOf, free, gridOf, heldBody, lights, toolBody } from "./scene";
+import { CutFace, planeOf, type Section } from "./section";
 import { StockView } from "./stock";
 
 export type Side = "iso" | "top" | "front" | "right";
@@ -31,14 +40,14 @@ const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 /** Pixels around a pointer that are looked through for a move. */
 const REACH = 9;
 /** So many pictures are timed, and one that takes longer is slow, ms. */
-const [TRIALS, SLOW] = [5, 60];
+const [TRIALS, SLOW] = [7, 60];
 
 /** What is under the pointer: a piece of the path, or the move that cut the part there last. */
 export type Picked = { piece: number } | { move: number } | undefined;
 
 export interface Watcher {
-  /** The user clicked. */
-  picked(what: Picked): void;
+  /** The user clicked, at a place in pixels of the picture. */
+  picked(what: Picked, pixel: [number, number]): void;
   /** The picture was drawn. */
   drawn(view: MachineView): void;
 }
@@ -47,6 +56,14 @@ export class MachineView {
   readonly paths = new Paths();
   readonly stock = new StockView();
   readonly camera = new OrthographicCamera();
+  readonly labels = new Labels();
+  readonly plan = new Plan(
+    () => this.draw(),
+    (x, y) => this.watcher.picked(this.under(x, y, this.plan.camera, this.plan.canvas), [x, y]),
+  );
+  /** Whether the time of each picture is measured, and the last one, ms. */
+  timed = false;
+  spent = 0;
   /** mm between the grid's lines. */
   step = 10;
   /** How often the picture was drawn. */
@@ -59,9 +76,20 @@ export class MachineView {
   private tool = new Group();
   private toolName = "";
   private readonly surroundings = new Group();
+  private readonly bench = new Group();
+  private readonly measured = new Group();
+  private frame: Object3D = new Group();
+  private readonly face = new CutFace(this.stock.uniforms);
+  private section: Section | undefined;
+  private cut: Cut | undefined;
+  private look_: Look | undefined;
+  private bodies: ReadonlyMap<string, Uint8Array> = new Map();
   private box: Box = NO_PATH;
+  private path: Path | undefined;
   private asked = false;
   private trials = TRIALS;
+  /** Whether it is known that more would be too much. */
+  private settled = false;
   private fitted = false;
   private unfitted = false;
 
@@ -71,7 +99,7 @@ export class MachineView {
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-    this.scene.add(this.surroundings, this.stock.drawn, this.paths.drawn, this.tool, lights());
+    this.scene.add(this.surroundings, this.bench, this.stock.drawn, this.face.drawn, this.paths.drawn, this.measured, this.tool, lights());
     this.pickScene.add(this.stock.pick, this.paths.pick);
     this.pickScene.background = new Color(0);
     this.camera.up.set(0, 0, 1);
@@ -87,12 +115,19 @@ export class MachineView {
 
   /** Another path with its part, or none. */
   setPath(path: Path | undefined, cut: Cut | undefined, keepEye: boolean): void {
+    this.path = path;
+    this.trials = TRIALS;
+    this.settled = false;
     this.paths.set(path);
     this.stock.open(cut);
+    this.cut = cut;
+    this.face.show(this.section, cut);
     const box = path && path.pieces > 0 ? path.box : NO_PATH;
     this.box = cut ? around(box, cut.raw) : box;
     this.tool.visible = Boolean(path && path.pieces > 0);
     this.surround();
+    this.setBench(this.bodies);
+    this.plan.open(this.box, !keepEye || !this.fitted);
     if (!keepEye || !this.fitted) this.look("iso");
     this.fitted = Boolean(path);
     this.draw();
@@ -106,12 +141,13 @@ export class MachineView {
 
   /** The tool that is in. */
   setTool(tool: Tool | undefined): void {
-    const name = tool ? `${tool.shape} ${tool.diameter}` : "";
+    const name = tool ? JSON.stringify([tool.outline, tool.flute, tool.shank, tool.holder]) : "";
     if (name === this.toolName) return;
     this.toolName = name;
+    this.canvas.dataset.tool = name;
     free(this.tool);
     this.tool.clear();
-    if (tool) this.tool.add(toolBody(tool.shape, tool.diameter));
+    if (tool) this.tool.add(toolBody(tool));
     this.draw();
   }
 
@@ -122,8 +158,87 @@ export class MachineView {
 
   setColouring(by: Colouring): void {
     this.paths.setColouring(by);
-    this.stock.setByTool(by === "tool");
     this.draw();
+  }
+
+  setSection(section: Section | undefined): void {
+    this.section = section;
+    const plane = planeOf(section);
+    this.stock.uniforms.section!.value = plane;
+    this.paths.setSection(plane);
+    this.face.show(section, this.stock.drawn.visible ? this.cut : undefined);
+    this.draw();
+  }
+
+  setStock(on: boolean): void {
+    this.stock.setVisible(on);
+    this.face.show(this.section, on ? this.cut : undefined);
+    this.draw();
+  }
+
+  /** Material and light. */
+  setLook(look: Look): void {
+    this.look_ = look;
+    const { uniforms } = this.stock;
+    uniforms.look!.value = new Vector4(look.metalness, look.roughness, look.brightness, uniforms.look!.value.w);
+    uniforms.sun!.value = sunOf(look);
+    this.restyle();
+  }
+
+  /** What stands around the part on the machine; `bodies` are files of triangles by their names. */
+  setBench(bodies: ReadonlyMap<string, Uint8Array>): void {
+    this.bodies = bodies;
+    for (const child of [...this.bench.children]) {
+      free(child);
+      this.bench.remove(child);
+    }
+    this.labels.clear("zero");
+    const { cut } = this;
+    this.frame = new Group();
+    if (cut) {
+      const style = getComputedStyle(document.documentElement);
+      const ink = (name: string) => new Color(style.getPropertyValue(name).trim());
+      this.frame = frameOf(cut.raw, ink("--dim"), this.reach() / 30);
+      this.frame.visible = false;
+      this.bench.add(this.frame);
+      for (const fixture of cut.fixtures ?? []) this.bench.add(heldBody(fixture, bodies.get(fixture.name)?.slice().buffer as ArrayBuffer | undefined, ink("--fixture")));
+      if (cut.travel) this.bench.add(frameOf({ low: cut.travel[0], high: cut.travel[1] }, ink("--travel"), this.reach() / 8));
+      for (const { name, at } of cut.zeros) {
+        const axes = axesOf(this.step);
+        axes.position.set(...at);
+        this.bench.add(axes);
+        this.labels.put(`zero ${name}`, name, at);
+      }
+    }
+    this.draw();
+  }
+
+  /** Places that are measured, with the line between them. */
+  setMeasured(places: (Point | undefined)[]): void {
+    for (const child of [...this.measured.children] as Line[]) {
+      child.geometry.dispose();
+      (child.material as LineBasicMaterial).dispose();
+      this.measured.remove(child);
+    }
+    ["A", "B"].forEach((name, own) => this.labels.put(`place ${name}`, name, places[own]));
+    const [a, b] = places;
+    if (a && b) {
+      const ink = getComputedStyle(document.documentElement).getPropertyValue("--mark").trim();
+      const line = new Line(new BufferGeometry().setFromPoints([new Vector3(...a), new Vector3(...b)]), new LineBasicMaterial({ color: ink, depthTest: false }));
+      line.renderOrder = 9;
+      this.measured.add(line);
+    }
+    this.draw();
+  }
+
+  /** From the part to the eye. */
+  get direction(): Vector3 {
+    return this.camera.position.clone().sub(this.controls.target).normalize();
+  }
+
+  /** How the picture sees. */
+  get eye(): Eye {
+    return { camera: this.camera, width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
 
   /** Looks from a side, with all of the path in the picture. */
@@ -178,9 +293,16 @@ export class MachineView {
     const ink = (name: string) => new Color().setStyle(style.getPropertyValue(name).trim() || "#888").convertLinearToSRGB();
     this.paths.setInks(ink);
     this.stock.setInks(ink);
+    this.face.setInks(ink);
+    const { look_: look } = this;
+    if (look?.colour) {
+      const own = new Color().setStyle(look.colour).convertLinearToSRGB();
+      this.stock.uniforms.cut!.value = own;
+      this.stock.uniforms.raw!.value = own.clone().multiplyScalar(0.82);
+    }
     this.renderer.setClearColor(new Color(style.getPropertyValue("--ground").trim()), 1);
     this.surround();
-    this.draw();
+    this.setBench(this.bodies);
   }
 
   /** Draws soon, once for all that changed until then. */
@@ -189,40 +311,86 @@ export class MachineView {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      if (this.canvas.clientWidth === 0) return;
-      const eye = this.camera.position.clone().sub(this.controls.target).normalize();
+      if (this.canvas.clientWidth === 0 && !this.plan.shown) return;
+      const eye = this.direction;
       this.stock.setEye(eye.x, eye.y, eye.z);
-      this.render();
+      const began = performance.now();
+      if (this.plan.shown) this.renderPlan();
+      if (this.canvas.clientWidth > 0) this.render();
+      if (this.timed) {
+        this.wait();
+        this.spent = performance.now() - began;
+      }
+      this.labels.draw(this.eye);
       this.frames += 1;
       this.watcher.drawn(this);
     });
   }
 
-  /** Draws; the first pictures of a part are timed, and where they take too long the part has fewer points. */
+  /** To read a pixel is to wait until all is drawn. */
+  private wait(): void {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
+  /** Draws; the first pictures of a program are timed, and where they take too long part and path are drawn coarser. */
   private render(): void {
     const began = performance.now();
+    this.wireframe();
+    this.paths.setSize(this.canvas.clientWidth, this.canvas.clientHeight, 1);
+    this.renderer.setViewport(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
     this.renderer.render(this.scene, this.camera);
-    if (this.trials === 0 || !this.stock.drawn.visible) return;
+    if (this.trials === 0 || !this.path) return;
     this.trials -= 1;
-    const gl = this.renderer.getContext();
-    // To read a pixel is to wait until it is there.
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.wait();
     // The first one compiles and uploads.
-    if (this.trials < TRIALS - 1 && performance.now() - began > SLOW && this.stock.coarser()) this.draw();
+    if (this.trials < TRIALS - 1) this.judge(performance.now() - began);
+  }
+
+  /** Draws part and path coarser where a picture took too long, and finer where four times as much would not. */
+  private judge(spent: number): void {
+    const both = spent > SLOW ? [this.paths, this.stock].map((one) => one.coarser()) : [];
+    if (both.length > 0) this.settled = true;
+    else if (!this.settled && spent * 4 < SLOW) both.push(this.paths.finer(), this.stock.finer());
+    if (both.some(Boolean)) this.draw();
+  }
+
+  /** Cells between two lines of a wireframe: so many that lines are apart. */
+  private wireframe(): void {
+    const { uniforms } = this.stock;
+    const cell = (uniforms.cell!.value as number) * this.camera.zoom * (this.canvas.clientHeight / 200);
+    uniforms.look!.value.w = this.look_?.wire ? 2 ** Math.max(0, Math.ceil(Math.log2(7 / Math.max(cell, 1e-6)))) : 0;
+  }
+
+  /** The plan: moves from above, and the frame of the raw part. */
+  private renderPlan(): void {
+    const hidden = [this.stock.drawn, this.face.drawn, this.surroundings].filter((one) => one.visible);
+    hidden.forEach((one) => (one.visible = false));
+    this.frame.visible = true;
+    const [width, height] = this.plan.prepare();
+    this.paths.setSize(width, height, 1);
+    this.renderer.setViewport(0, 0, width, height);
+    this.renderer.render(this.scene, this.plan.camera);
+    const ratio = this.renderer.getPixelRatio();
+    this.plan.copy(this.canvas, Math.floor(width * ratio), Math.floor(height * ratio));
+    this.frame.visible = false;
+    hidden.forEach((one) => (one.visible = true));
   }
 
   /** What is under a place of the picture, in its pixels. */
-  under(x: number, y: number): Picked {
-    const { clientWidth, clientHeight } = this.canvas;
+  under(x: number, y: number, camera = this.camera, canvas = this.canvas): Picked {
+    const { clientWidth, clientHeight } = canvas;
     const half = (REACH - 1) / 2;
-    this.camera.setViewOffset(clientWidth, clientHeight, x - half, y - half, REACH, REACH);
+    camera.setViewOffset(clientWidth, clientHeight, x - half, y - half, REACH, REACH);
     this.paths.setPickSize(REACH);
     this.renderer.setRenderTarget(this.target);
-    this.renderer.render(this.pickScene, this.camera);
+    const solid = camera === this.camera && this.stock.drawn.visible;
+    this.stock.pick.visible = solid;
+    this.renderer.render(this.pickScene, camera);
     const pixels = new Uint8Array(REACH * REACH * 4);
     this.renderer.readRenderTargetPixels(this.target, 0, 0, REACH, REACH, pixels);
     this.renderer.setRenderTarget(null);
-    this.camera.clearViewOffset();
+    camera.clearViewOffset();
     let [best, found]: [number, Picked] = [Infinity, undefined];
     for (let at = 0; at < REACH * REACH; at += 1) {
       const [red, green, blue, alpha] = pixels.subarray(at * 4, at * 4 + 4) as unknown as [number, number, number, number];
@@ -232,6 +400,22 @@ export class MachineView {
       const far = Math.hypot((at % REACH) - half, Math.floor(at / REACH) - half) + (part ? REACH : 0);
       if (id > 0 && far < best) [best, found] = [far, part ? { move: id } : { piece: id - 1 }];
     }
+    return found && "piece" in found ? { piece: this.nearest(found.piece, [x, y], { camera, width: clientWidth, height: clientHeight }) } : found;
+  }
+
+  /** Of the moves that are drawn as one line, the one that is nearest to a pixel. */
+  private nearest(first: number, pixel: [number, number], eye: Eye): number {
+    const { path } = this;
+    const { every } = this.paths;
+    if (!path || every === 1) return first;
+    let [best, found] = [Infinity, first];
+    for (let piece = first; piece < Math.min(first + every, path.pieces); piece += 1) {
+      const far = Math.min(...endsOf(path, piece).map((end) => {
+        const [x, y] = seenAt(eye, end);
+        return Math.hypot(x - pixel[0], y - pixel[1]);
+      }));
+      if (far < best) [best, found] = [far, piece];
+    }
     return found;
   }
 
@@ -240,9 +424,10 @@ export class MachineView {
     this.canvas.addEventListener("pointerdown", (event) => (down = [event.offsetX, event.offsetY]));
     this.canvas.addEventListener("pointerup", (event) => {
       const moved = Math.hypot(event.offsetX - down[0], event.offsetY - down[1]);
-      if (event.button === 0 && moved < 4) this.watcher.picked(this.under(event.offsetX, event.offsetY));
+      if (event.button === 0 && moved < 4) this.watcher.picked(this.under(event.offsetX, event.offsetY), [event.offsetX, event.offsetY]);
     });
-    this.canvas.addEventListener("webglcontextrestored", () => this.draw());
+    // What the graphics card held is made again.
+    this.canvas.addEventListener("webglcontextrestored", () => this.setPath(this.path, this.cut, true));
   }
 
   private centre(): Vector3 {
@@ -255,7 +440,7 @@ export class MachineView {
   }
 
   private surround(): void {
-    for (const child of [...this.surroundings.children] as (Group | LineSegments)[]) {
+    for (const child of [...this.surroundings.children]) {
       free(child);
       this.surroundings.remove(child);
     }
@@ -265,16 +450,21 @@ export class MachineView {
     this.surroundings.add(grid, axesOf(step * 1.5));
   }
 
-  private resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement as HTMLElement;
-    if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
-    const tall = 100;
-    [this.camera.top, this.camera.bottom] = [tall, -tall];
-    [this.camera.left, this.camera.right] = [(-tall * width) / height, (tall * width) / height];
-    this.camera.updateProjectionMatrix();
-    this.paths.setSize(width, height, 1);
-    if (this.unfitted) this.fit();
+  /** The layout is another: picture, plan, or both. */
+  resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const plan = this.plan.shown ? this.plan.canvas : undefined;
+    const wide = Math.max(width, plan?.clientWidth ?? 0);
+    const high = Math.max(height, plan?.clientHeight ?? 0);
+    if (wide === 0 || high === 0) return;
+    this.renderer.setSize(wide, high, false);
+    if (width > 0) {
+      const tall = 100;
+      [this.camera.top, this.camera.bottom] = [tall, -tall];
+      [this.camera.left, this.camera.right] = [(-tall * width) / height, (tall * width) / height];
+      this.camera.updateProjectionMatrix();
+      if (this.unfitted) this.fit();
+    }
     this.draw();
   }
 }

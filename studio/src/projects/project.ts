@@ -17,6 +17,10 @@ export interface Choices {
   stock: string;
   /** Tools by their numbers, as `--tool` has them behind the sign. */
   tools: Record<string, string>;
+  /** What holds the part, each as `--fixture` has it. */
+  fixtures: string[];
+  /** Cells along the longer side of the part; 0 where the page chooses. */
+  cells: number;
 }
 
 export interface Project {
@@ -31,12 +35,14 @@ export interface Project {
   encoding: "utf-8" | "windows-1252";
   crlf: boolean;
   choices: Choices;
+  /** Files of triangles that fixtures name. */
+  bodies?: Record<string, Uint8Array>;
   /** Where it is in the folder that the binary serves, and the tag of what was read. */
   disk?: { name: string; tag: string };
 }
 
 export function noChoices(from = "auto"): Choices {
-  return { from, machine: "", to: "", machineTo: "", fromOption: {}, toOption: {}, pass: [], stock: "", tools: {} };
+  return { from, machine: "", to: "", machineTo: "", fromOption: {}, toOption: {}, pass: [], stock: "", tools: {}, fixtures: [], cells: 0 };
 }
 
 /** A new project of a text's bytes, and the text. */

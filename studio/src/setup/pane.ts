@@ -5,6 +5,7 @@ import type { Cut, Tool } from "../engine/part";
 import type { Desk } from "../projects/desk";
 import type { Session } from "../session";
 import { byId, el } from "../ui/dom";
+import { Bench, bodyOf, bodyText } from "./bench";
 import { clock, figure, say, type TextName } from "../ui/texts";
 
 /** Shapes that can be stated, and what more can be: its name on the command line and its unit. */
@@ -57,7 +58,8 @@ export class SetupPane {
     if (host.contains(document.activeElement) && document.activeElement?.matches("input, select")) {
       return document.activeElement.addEventListener("blur", () => this.show(), { once: true });
     }
-    host.replaceChildren(this.raw(cut), this.tools(cut));
+    const bench = new Bench(this.desk, this.session.project.get());
+    host.replaceChildren(this.raw(cut), bench.fixtures(cut), this.tools(cut), bench.resolution());
   }
 
   private raw(cut: Cut | undefined): HTMLElement {
@@ -85,7 +87,7 @@ export class SetupPane {
   }
 
   private tools(cut: Cut | undefined): HTMLElement {
-    const names: TextName[] = ["tool", "shape", "diameter", "detail", "knownBy", "time", "removed"];
+    const names: TextName[] = ["tool", "shape", "diameter", "detail", "flute", "shank", "holder", "holderFrom", "knownBy", "time", "removed"];
     const head = el("tr", {}, ...names.map((name) => el("th", { scope: "col" }, say(name))));
     const rows = (cut?.tools ?? []).map((tool, at) => this.tool(tool, at));
     const table = el("table", {}, el("thead", {}, head), el("tbody", {}, ...rows));
@@ -96,7 +98,8 @@ export class SetupPane {
     const { number } = tool;
     const name = number === null ? "–" : `T${number}`;
     const stated = this.session.project.get()?.choices.tools[String(number)] ?? "";
-    const detail = /=([\d.]+)/.exec(stated)?.[1] ?? "";
+    const detail = /(?:corner|angle)=([\d.]+)/.exec(stated)?.[1] ?? "";
+    const body = bodyOf(stated, tool);
     const disabled = number === null;
     const shape = el("select", { "aria-label": `${say("shape")} ${name}`, disabled });
     const known = SHAPES.some(([own]) => own === tool.shape) ? SHAPES : [...SHAPES, [tool.shape, "shape", "", ""] as const];
@@ -110,13 +113,16 @@ export class SetupPane {
     const state = () => {
       const key = SHAPES.find(([own]) => own === shape.value)?.[2];
       const extra = key && more.value && shape.value === tool.shape ? `,${key}=${more.value}` : "";
-      const text = diameter.value ? `${shape.value},${diameter.value}${extra}` : "";
+      const text = diameter.value ? `${shape.value},${diameter.value}${extra}${bodyText(lengths, diameter.valueAsNumber)}` : "";
       void this.desk.choose(({ choices }) => {
         if (text) choices.tools[String(number)] = text;
         else delete choices.tools[String(number)];
       });
     };
-    for (const input of [shape, diameter, more]) input.addEventListener("change", state);
+    // Where a holder begins means nothing without one.
+    const lengths = Object.fromEntries(Object.entries(body).map(([key, [label, value]]) => [key, field(label, value)]));
+    (lengths.holder_from as HTMLInputElement).disabled ||= !lengths.holder?.value;
+    for (const input of [shape, diameter, more, ...Object.values(lengths)]) input.addEventListener("change", state);
     const dot = el("i", { class: `band band-${at % 8}` });
     const guessed = tool.known === "guess";
     return el(
@@ -126,6 +132,7 @@ export class SetupPane {
       el("td", {}, shape),
       el("td", {}, diameter, " mm"),
       el("td", {}, more, option ? ` ${unit}` : ""),
+      ...Object.values(lengths).map((input) => el("td", {}, input)),
       el("td", { class: guessed ? "guess" : "" }, say(KNOWN[tool.known] ?? "guess")),
       el("td", { class: "figure" }, clock(tool.cutting)),
       el("td", { class: "figure" }, `${figure(tool.removed / 1000, 2)} cm³`),

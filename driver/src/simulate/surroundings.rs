@@ -1,0 +1,43 @@
+//! What lies around a part on its machine: zeros of the work offsets, the travel of the axes.
+//!
+//! Both are known only as far as a profile states where the zeros are: without that, the part lies nowhere on the machine.
+
+use ncc_dialects::Dialect;
+use ncc_machines::Profile;
+
+use super::path::Path;
+use crate::render::spelled;
+
+/// What is known around a part; lengths in mm, coordinates of the part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surroundings {
+    /// The zero of each work offset that is used and known, by the word that the dialect has for it. The one in which the
+    /// program cuts first is in the origin.
+    pub zeros: Vec<(String, [f64; 3])>,
+    /// How far X, Y and Z of the machine go: the least and the greatest coordinates of the spindle's nose.
+    pub travel: Option<[[f64; 3]; 2]>,
+}
+
+impl Surroundings {
+    /// Of the moves of a program in a dialect, on a machine.
+    pub fn of(path: &Path, dialect: &Dialect, profile: Option<&Profile>) -> Surroundings {
+        let known = |zero: &[Option<f64>; 3]| Some([zero[0]?, zero[1]?, zero[2]?]);
+        let datum = path.zeros.get(path.datum).and_then(known);
+        let zero = |at: usize| match (at == path.datum, datum) {
+            (true, _) => Some([0.0; 3]),
+            (false, Some(datum)) => {
+                known(&path.zeros[at]).map(|zero| [0, 1, 2].map(|axis| zero[axis] - datum[axis]))
+            }
+            (false, None) => None,
+        };
+        let named = |number: u16| spelled::work_offset(number, [dialect; 2]);
+        let zeros =
+            path.offsets.iter().enumerate().filter_map(|(at, number)| Some((named(*number), zero(at)?)));
+        let travel = datum.zip(profile).and_then(|(datum, profile)| {
+            let axes = profile.machine().axes;
+            let ends = [axes[0].travel?, axes[1].travel?, axes[2].travel?];
+            Some([0, 1].map(|end: usize| [0, 1, 2].map(|axis: usize| ends[axis][end] - datum[axis])))
+        });
+        Surroundings { zeros: zeros.collect(), travel }
+    }
+}

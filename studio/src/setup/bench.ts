@@ -1,0 +1,121 @@
+// What else is set up: fixtures around the part, shank and holder of a tool, and how fine the part is cut.
+
+import type { Cut, Tool } from "../engine/part";
+import type { Desk } from "../projects/desk";
+import type { Project } from "../projects/project";
+import { el } from "../ui/dom";
+import { say, type TextName } from "../ui/texts";
+
+const CELLS = [0, 256, 512, 1024, 2048, 4096];
+/** Letters of a block's ranges, and the numbers of a fixture in the order of its fields. */
+const RANGES = ["X", "Y", "Z"] as const;
+const FIELDS = ["X−", "X+", "Y−", "Y+", "Z−", "Z+"];
+const ROUND = ["D", "X", "Y", "Z−", "Z+"];
+
+export class Bench {
+  constructor(
+    private readonly desk: Desk,
+    private readonly project: Project | undefined,
+  ) {}
+
+  /** The list of fixtures, each by its numbers or its file. */
+  fixtures(cut: Cut | undefined): HTMLElement {
+    const all = this.project?.choices.fixtures ?? [];
+    const rows = all.map((text, at) => this.fixture(text, at));
+    const add = (name: TextName, make: () => void) => {
+      const button = el("button", { class: "chip" }, say(name));
+      button.addEventListener("click", make);
+      return button;
+    };
+    const { low, high } = cut?.raw ?? { low: [0, 0, -20], high: [50, 50, 0] };
+    const [x, y0, y1, z0, z1] = [high[0], low[1], high[1], low[2], high[2]] as [number, number, number, number, number];
+    // A jaw along the part, as high as its middle.
+    const jaw = block([x, x + 20, y0, y1, z0, (z0 + z1) / 2]);
+    const middle = (y0 + y1) / 2;
+    const clamp = round([20, x + 15, middle, z0, z1 + 10]);
+    const file = el("input", { type: "file", accept: ".stl", "aria-label": say("fixtureFile"), class: "unseen", tabindex: -1 });
+    file.addEventListener("change", () => void this.take(file.files?.[0]));
+    const buttons = el("div", { class: "held" }, add("addBlock", () => this.put([...all, jaw])), add("addCylinder", () => this.put([...all, clamp])), add("addStl", () => file.click()), file);
+    return el("section", { id: "fixtures" }, el("h2", {}, say("fixtures")), ...rows, buttons);
+  }
+
+  /** How fine the part is cut. */
+  resolution(): HTMLElement {
+    const chosen = this.project?.choices.cells ?? 0;
+    const list = el("select", { id: "cells", "aria-label": say("resolution") });
+    list.append(...CELLS.map((cells) => el("option", { value: cells, selected: cells === chosen }, cells ? say("cellsAlong", { cells }) : say("cellsAutomatic"))));
+    list.addEventListener("change", () => void this.desk.choose(({ choices }) => (choices.cells = Number(list.value))));
+    return el("section", {}, el("h2", {}, say("resolution")), list);
+  }
+
+  private fixture(text: string, at: number): HTMLElement {
+    const isFile = /\.stl$/i.test(text);
+    const isRound = /\bD/.test(text);
+    const names = isFile ? [] : isRound ? ROUND : FIELDS;
+    const numbers = [...text.matchAll(/-?[\d.]+/g)].map(([number]) => Number(number));
+    const label = say("fixtureNumber", { number: at + 1 });
+    const inputs = names.map((name, own) => {
+      const input = el("input", { type: "number", step: "any", value: numbers[own] ?? 0, "aria-label": `${label} ${name}` });
+      input.addEventListener("change", () => {
+        const values = inputs.map((one) => one.valueAsNumber || 0);
+        this.replace(at, isRound ? round(values) : block(values));
+      });
+      return input;
+    });
+    const fields = inputs.map((input, own) => el("label", {}, names[own] ?? "", input));
+    const remove = el("button", { class: "chip", "aria-label": `${say("remove")}: ${label}` }, say("remove"));
+    remove.addEventListener("click", () => this.replace(at));
+    return el("div", { class: "held" }, el("b", {}, isFile ? text : label), ...fields, remove);
+  }
+
+  private replace(at: number, ...by: string[]): void {
+    const all = [...(this.project?.choices.fixtures ?? [])];
+    all.splice(at, 1, ...by);
+    this.put(all);
+  }
+
+  private put(fixtures: string[]): void {
+    void this.desk.choose(({ choices }) => (choices.fixtures = fixtures));
+  }
+
+  private async take(file: File | undefined): Promise<void> {
+    if (!file) return;
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    await this.desk.choose((project) => {
+      project.bodies = { ...project.bodies, [file.name]: bytes };
+      project.choices.fixtures = [...project.choices.fixtures, file.name];
+    });
+  }
+}
+
+function block(numbers: number[]): string {
+  return RANGES.map((letter, axis) => `${letter}${short(numbers[axis * 2])}:${short(numbers[axis * 2 + 1])}`).join(" ");
+}
+
+function round([diameter, x, y, low, high]: number[]): string {
+  return `D${short(diameter)} X${short(x)} Y${short(y)} Z${short(low)}:${short(high)}`;
+}
+
+const short = (value: number | undefined) => Number((value ?? 0).toFixed(3));
+
+/** Lengths of a tool's body: their names on the command line, in words, and their values. */
+export function bodyOf(stated: string, tool: Tool): Record<string, [TextName, string]> {
+  const value = (key: string, known: number | undefined) => new RegExp(`\\b${key}=([\\d.]+)`).exec(stated)?.[1] ?? (known === undefined ? "" : String(known));
+  return {
+    flute: ["flute", value("flute", tool.flute)],
+    shank: ["shank", value("shank", tool.shank)],
+    holder: ["holder", value("holder", tool.holder?.[0])],
+    holder_from: ["holderFrom", value("holder_from", tool.holder?.[1])],
+  };
+}
+
+/** They as the command line has them. A shank means nothing without flutes, nor a holder without its place: what is missing is
+ * what is usual, until somebody states it. */
+export function bodyText(inputs: Record<string, HTMLInputElement>, diameter: number): string {
+  const stated = (key: string) => inputs[key]?.valueAsNumber || undefined;
+  const [shank, holder] = [stated("shank"), stated("holder")];
+  const flute = stated("flute") ?? (shank && diameter * 3);
+  const from = holder && (stated("holder_from") ?? (flute ?? diameter * 3) + 10);
+  const all = { flute, shank, holder, holder_from: from };
+  return Object.entries(all).map(([key, value]) => (value ? `,${key}=${value}` : "")).join("");
+}
