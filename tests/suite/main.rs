@@ -51,6 +51,7 @@ mod shop_tools;
 mod siemens_peer;
 mod siemens_second;
 mod simulate;
+mod simulator_list;
 mod spliced;
 mod stable;
 mod structure;
