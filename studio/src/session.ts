@@ -8,6 +8,7 @@ import type { Engines } from "./engine/host";
 import { readBetween, readCut, readHeights, type Between, type Cut, type Heights } from "./engine/part";
 import { readPath, type Path } from "./engine/path";
 import { bytesOf, type Choices, type Project } from "./projects/project";
+import { ANSWERS } from "./projects/zip";
 import { Signal } from "./ui/signal";
 
 /** What a check has found. */
@@ -153,6 +154,19 @@ export class Session {
     if (!project || !quick) return undefined;
     quick.put(project.file, bytesOf(project, this.text()));
     return quick.run({ verb, ...request(project.file, project.choices), ...more });
+  }
+
+  /** The text of a project file with what was chosen for the program; `answers` is the one that there is. */
+  async answers(answers: string | undefined): Promise<Answer | undefined> {
+    const [project, quick] = [this.project.get(), this.engines?.quick];
+    if (!project || !quick) return undefined;
+    const { from, machine, to, machineTo, fromOption, toOption } = project.choices;
+    const file = project.disk?.name ?? project.file;
+    quick.put(file, bytesOf(project, this.text()));
+    if (answers !== undefined) quick.put(ANSWERS, new TextEncoder().encode(answers));
+    const known = answers === undefined ? {} : { project: ANSWERS };
+    const sides = given({ from, to, machine_from: machine, machine_to: machineTo });
+    return quick.run({ verb: "project", file, ...known, ...sides, from_option: fromOption, to_option: toOption });
   }
 
   /** Cuts the program and its translation from one raw part; what lies between them, or why nobody knows. */

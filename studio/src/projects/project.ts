@@ -31,6 +31,8 @@ export interface Project {
   encoding: "utf-8" | "windows-1252";
   crlf: boolean;
   choices: Choices;
+  /** The text of its `ncc.toml`, once something was answered. */
+  answers?: string;
   /** Where it is in the folder that the binary serves, and the tag of what was read. */
   disk?: { name: string; tag: string };
 }
