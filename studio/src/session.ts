@@ -8,6 +8,7 @@ import type { Engines } from "./engine/host";
 import { readBetween, readCut, readHeights, type Between, type Cut, type Heights } from "./engine/part";
 import { readPath, type Path } from "./engine/path";
 import { bytesOf, type Choices, type Project } from "./projects/project";
+import { ANSWERS } from "./projects/zip";
 import { Signal } from "./ui/signal";
 
 /** What a check has found. */
@@ -157,6 +158,19 @@ export class Session {
     return quick.run({ verb, ...request(project.file, project.choices), ...more });
   }
 
+  /** The text of a project file with what was chosen for the program; `answers` is the one that there is. */
+  async answers(answers: string | undefined): Promise<Answer | undefined> {
+    const [project, quick] = [this.project.get(), this.engines?.quick];
+    if (!project || !quick) return undefined;
+    const { from, machine, to, machineTo, fromOption, toOption } = project.choices;
+    const file = project.disk?.name ?? project.file;
+    quick.put(file, bytesOf(project, this.text()));
+    if (answers !== undefined) quick.put(ANSWERS, new TextEncoder().encode(answers));
+    const known = answers === undefined ? {} : { project: ANSWERS };
+    const sides = given({ from, to, machine_from: machine, machine_to: machineTo });
+    return quick.run({ verb: "project", file, ...known, ...sides, from_option: fromOption, to_option: toOption });
+  }
+
   /** Cuts the program and its translation from one raw part; what lies between them, or why nobody knows. */
   async compare(to: string): Promise<Between | string | undefined> {
     const [project, heavy] = [this.project.get(), this.engines?.heavy];
@@ -177,7 +191,6 @@ export class Session {
     }
   }
 
-<<<<<<< HEAD
   /** What two programs do, held against each other; and the way of the other one. */
   async compareMoves(other: Other): Promise<[Answer, Answer] | undefined> {
     const [project, heavy] = [this.project.get(), this.engines?.heavy];
@@ -192,7 +205,8 @@ export class Session {
       if (error instanceof Cancelled) return undefined;
       throw error;
     }
-=======
+  }
+
   /** Cells along the longer side: what was chosen, or as many as are cut soon enough, by the last path and its tools. */
   private cells({ cells }: Choices): number {
     const [path, cut] = [this.path.get(), this.cut];
@@ -202,7 +216,6 @@ export class Session {
     let work = 0;
     for (let piece = 0; piece < path.pieces; piece += 1) work += of[path.tool[piece] as number] ?? 0;
     return work > MUCH ? COARSE : FINE;
->>>>>>> 4526f26f52ac9f4c83aa09fed9ac434303363ed9
   }
 
   private async work(): Promise<void> {

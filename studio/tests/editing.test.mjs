@@ -15,7 +15,7 @@ async function put(own, row, words) {
   const box = await place.evaluate((element, wanted) => {
     const range = document.createRange();
     const walk = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
-    let [all, from] = ["", element.textContent.indexOf(wanted)];
+    let [all, from] = ["", element.textContent.lastIndexOf(wanted)];
     for (let node = walk.nextNode(); node; all += node.textContent, node = walk.nextNode()) {
       if (all.length <= from && from < all.length + node.textContent.length) {
         range.setStart(node, from - all.length);
@@ -39,7 +39,7 @@ both("F12, Ctrl+click and a button lead from a call, a jump and a loop's end to 
   const jump = await put(own, "GOTO10", "10");
   await own.mouse.move(jump.x, jump.y);
   await own.keyboard.down("Control");
-  await own.mouse.click(jump.x + 45, jump.y);
+  await own.mouse.click(jump.x, jump.y);
   await own.keyboard.up("Control");
   await own.waitForFunction(() => document.querySelector("#editor").shadowRoot.querySelector(".cm-activeLineGutter").textContent === "7");
   await at("END1", "END1");

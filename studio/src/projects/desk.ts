@@ -8,6 +8,7 @@ import { EXAMPLES, type Example } from "./examples";
 import type { Folder, List } from "./folder";
 import { bytesOf, noChoices, projectOf, type Project } from "./project";
 import type { Store } from "./store";
+import { ANSWERS, type Packed } from "./zip";
 
 /** So long after the last change a text is saved, ms. */
 const QUIET = 600;
@@ -176,13 +177,57 @@ export class Desk {
   }
 
   /** Choices were changed: they are part of the project. */
-  async choose(change: (project: Project) => void): Promise<void> {
+  async choose(change: (project: Project) => void, works = true): Promise<void> {
     if (!this.project) return;
     const project = structuredClone(this.project);
     change(project);
     this.session.project.set(project);
-    this.session.change();
+    if (works) this.session.change();
     await this.store.put(project);
+  }
+
+  /** Writes what was chosen into the program's `ncc.toml`, so that the command line does the same; tells what kept it. */
+  async keepAnswers(): Promise<string> {
+    const { project } = this;
+    if (!project) return "";
+    const disk = project.disk && this.folder ? await this.folder.read(ANSWERS) : undefined;
+    const there = project.disk ? disk && new TextDecoder().decode(disk[0]) : project.answers;
+    const answer = await this.session.answers(there);
+    const written = answer?.bytes("output");
+    if (!written) return (answer?.text("messages") ?? "").trim();
+    if (project.disk && this.folder) {
+      // What somebody else wrote meanwhile stays.
+      const tag = await this.folder.write(ANSWERS, written, disk?.[1]).catch(() => undefined);
+      return tag === undefined ? say("answersNotKept") : "";
+    }
+    await this.choose((own) => (own.answers = new TextDecoder().decode(written)), false);
+    return "";
+  }
+
+  /** Projects as they go into a zip: one, or all of the browser's. */
+  async packed(id?: string): Promise<Packed[]> {
+    await this.save();
+    const ids = id === undefined ? (await this.store.list()).filter((one) => !one.disk).map((one) => one.id) : [id];
+    const found: Packed[] = [];
+    for (const own of ids) {
+      const [project] = (await this.store.get(own)) ?? [];
+      const file = project && (await this.file(own));
+      if (!project || !file) continue;
+      const { name, choices, answers } = this.project?.id === own ? this.project : project;
+      found.push({ name, file: file[0], bytes: file[1], choices, ...(answers !== undefined && { answers }) });
+    }
+    return found;
+  }
+
+  /** Projects of a zip; the last one is open. */
+  async unpack(packed: Packed[]): Promise<void> {
+    for (const { name, file, bytes, answers, choices } of packed) {
+      await this.save();
+      const [made, text] = projectOf(await this.freeName(name), file, bytes);
+      const project: Project = { ...made, ...(choices && { choices }), ...(answers !== undefined && { answers }) };
+      await this.store.put(project, text);
+      this.show(project, text);
+    }
   }
 
   private show(project: Project, text: string): void {

@@ -5,6 +5,7 @@ import { chooseName, say, type Language } from "../ui/texts";
 import { download, type Desk } from "./desk";
 import { EXAMPLES } from "./examples";
 import type { Project } from "./project";
+import { NoZip, isZip, unzipped, zipped } from "./zip";
 
 /** What a new program begins with, in every word-address dialect. */
 const BEGINNING = "%\nO0001\nG21 G17 G90 G94 G40 G49 G80\n\nM30\n%\n";
@@ -69,7 +70,8 @@ export class ProjectsDialog {
       this.dialog.close();
     };
     const form = el("form", { class: "new", onsubmit: (event) => void create(event) }, name);
-    form.append(el("button", { class: "primary", type: "submit" }, icon("plus"), say("create")), importing);
+    const all = el("button", { type: "button", id: "export-all", onclick: () => void this.zip(undefined, "ncc-studio") }, say("exportAll"));
+    form.append(el("button", { class: "primary", type: "submit" }, icon("plus"), say("create")), importing, all);
     return form;
   }
 
@@ -104,22 +106,42 @@ export class ProjectsDialog {
       act(say("rename"), rename),
       act(say("duplicate"), () => again(this.desk.duplicate(id))),
       act(say("export"), save),
+      act(say("exportZip"), () => void this.zip(id, name)),
       act(say("remove"), remove),
     );
     return row;
   }
 
+  private async zip(id: string | undefined, name: string): Promise<void> {
+    download(`${name}.zip`, zipped(await this.desk.packed(id)));
+  }
+
   private async take(files: FileList | null): Promise<void> {
-    await takeFiles(this.desk, files);
-    this.dialog.close();
+    const wrong = await takeFiles(this.desk, files);
+    if (wrong.length === 0) return this.dialog.close();
+    this.dialog.append(el("p", { class: "wrong", role: "alert" }, say("noZip", { name: wrong.join(", ") })));
   }
 }
 
-/** Files become projects; the last one is open. */
-export async function takeFiles(desk: Desk, files: FileList | null): Promise<void> {
+/** Files become projects, a zip those that it has; the last one is open. Gives the names of what is no zip of programs. */
+export async function takeFiles(desk: Desk, files: FileList | null): Promise<string[]> {
+  const wrong: string[] = [];
   for (const file of files ?? []) {
-    await desk.create(file.name.replace(/\.\w+$/, ""), file.name, new Uint8Array(await file.arrayBuffer()));
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    if (!isZip(bytes)) {
+      await desk.create(file.name.replace(/\.\w+$/, ""), file.name, bytes);
+      continue;
+    }
+    try {
+      const packed = unzipped(bytes);
+      if (packed.length === 0) wrong.push(file.name);
+      await desk.unpack(packed);
+    } catch (error) {
+      if (!(error instanceof NoZip)) throw error;
+      wrong.push(file.name);
+    }
   }
+  return wrong;
 }
 
 /** Files that are dropped on the page. */

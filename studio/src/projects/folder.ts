@@ -1,5 +1,7 @@
 // Programs in the folder that the binary serves: listed, read, watched, and saved over what was read, never over another's.
 
+import { ANSWERS } from "./zip";
+
 export interface List {
   folder: string;
   programs: { name: string; bytes: number }[];
@@ -14,7 +16,9 @@ export class Folder {
   async list(stamp?: string): Promise<List> {
     const answer = await this.ask("GET", stamp ? `programs?stamp=${stamp}` : "programs");
     if (!answer.ok) throw new Error(`programs: ${answer.status}`);
-    return (await answer.json()) as List;
+    const list = (await answer.json()) as List;
+    // Answers are no program.
+    return { ...list, programs: list.programs.filter((one) => one.name !== ANSWERS) };
   }
 
   /** A program's bytes and their tag. */
@@ -24,9 +28,10 @@ export class Folder {
     return [new Uint8Array(await answer.arrayBuffer()), answer.headers.get("etag") ?? ""];
   }
 
-  /** Saves over what has the tag; gives the new one, or nothing where something else is there by now. */
-  async write(name: string, bytes: Uint8Array, tag: string): Promise<string | undefined> {
-    const answer = await this.ask("PUT", path(name), { "if-match": tag }, bytes.slice());
+  /** Saves over what has the tag, or anew without one; gives the new one, or nothing where something else is there by now. */
+  async write(name: string, bytes: Uint8Array, tag: string | undefined): Promise<string | undefined> {
+    const over: Record<string, string> = tag === undefined ? { "if-none-match": "*" } : { "if-match": tag };
+    const answer = await this.ask("PUT", path(name), over, bytes.slice());
     return answer.ok ? (answer.headers.get("etag") ?? "") : undefined;
   }
 

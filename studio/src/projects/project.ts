@@ -37,6 +37,8 @@ export interface Project {
   choices: Choices;
   /** Files of triangles that fixtures name. */
   bodies?: Record<string, Uint8Array>;
+  /** The text of its `ncc.toml`, once something was answered. */
+  answers?: string;
   /** Where it is in the folder that the binary serves, and the tag of what was read. */
   disk?: { name: string; tag: string };
 }

@@ -66,9 +66,9 @@ export class MovesPane {
     for (const [side, path] of this.paths.entries()) {
       if (!path) continue;
       const own = ink(side === 0 ? "--c-move-feed" : "--c-move-clockwise");
-      trace(pen, path, place, own, side === 0 ? 2.5 : 1.2, () => true);
+      trace(pen, path, place, own, side === 0 ? 4 : 1.4, () => true);
       const lines = marked[side] as Set<number>;
-      if (lines.size > 0) trace(pen, path, place, ink("--mark"), 3.5, (line) => lines.has(line));
+      if (lines.size > 0) trace(pen, path, place, ink("--mark"), 4, (line) => lines.has(line));
     }
   }
 

@@ -47,7 +47,12 @@ export class TranslatePane {
     });
     wireToggle("together", (on) => this.aligned.setTogether(on));
     session.translation.on((translation) => this.show(translation));
-    session.project.on(() => this.choices());
+    let open: string | undefined;
+    session.project.on((project) => {
+      this.choices();
+      if (project?.id !== open) byId("answers-told").textContent = "";
+      open = project?.id;
+    });
     byId("translation-export").addEventListener("click", () => this.save());
     byId("compare").addEventListener("click", () => void this.compare());
   }
@@ -124,7 +129,15 @@ export class TranslatePane {
   }
 
   private take(option: string): void {
-    void this.desk.choose((project) => choose(project.choices, option));
+    void this.desk.choose((project) => choose(project.choices, option)).then(() => this.keep());
+  }
+
+  /** Writes the answers where the command line finds them. */
+  private async keep(): Promise<void> {
+    const place = byId("answers-told");
+    const told = await this.desk.keepAnswers();
+    place.textContent = told || say("answersKept");
+    place.classList.toggle("bad", told !== "");
   }
 
   /** What was chosen, each to be taken back by a click. */
@@ -148,7 +161,7 @@ export class TranslatePane {
   }
 
   private chip(text: string, back: (choices: Choices) => unknown): HTMLElement {
-    const does = () => void this.desk.choose((project) => back(project.choices));
+    const does = () => void this.desk.choose((project) => back(project.choices)).then(() => this.keep());
     return el("button", { class: "chip", title: say("undoChoice", { name: text }), onclick: does }, text, icon("close"));
   }
 
