@@ -41,15 +41,15 @@ fn rows_of_the_list_are_answered_by_tests_that_are_there() {
         // Codes have no number.
         let name = if row.is_empty() { original.split(':').next().unwrap_or_default() } else { row };
         if !rows.insert(name.to_owned()) {
-            failures.add(&name, "it is there twice");
+            failures.add(name, "it is there twice");
         }
         if !ANSWERS.contains(&answer) {
-            failures.add(&name, format!("`{answer}` is no answer"));
+            failures.add(name, format!("`{answer}` is no answer"));
         }
         for test in how.split("*test* `").skip(1).filter_map(|rest| rest.split('`').next()) {
             named += 1;
             if !tests.contains(test) {
-                failures.add(&name, format!("there is no test `{test}`"));
+                failures.add(name, format!("there is no test `{test}`"));
             }
         }
     }

@@ -65,6 +65,23 @@ fn bull_nose(bencher: Bencher, cells: f64) {
     run(bencher, &Shape::BullNose { corner: cells * 0.02 }, cells, 0.1);
 }
 
+/// Circles of 3 mm radius that stay level, each beside the last one.
+#[divan::bench(sample_count = 9, sample_size = 1, args = [2.5, 10.0, 20.0])]
+fn flat_on_circles(bencher: Bencher, cells: f64) {
+    let way =
+        |x: f64, y: f64| Way::Arc { plane: [0, 1, 2], centre: [x - 3.0, y], sweep: std::f64::consts::TAU };
+    let circles = |n: usize| {
+        let [x, y] = [10.0 + (n % 80) as f64, 10.0 + (n / 80) as f64];
+        let to = Move { way: Way::Feed, end: [x, y, -1.0], tool: 0, turns: true, time: 0.0, line: 0 };
+        [to, Move { way: way(x, y), ..to }]
+    };
+    let moves: Vec<Move> = (0..1_000).flat_map(circles).collect();
+    bencher
+        .counter(ItemsCount::new(1_000_usize))
+        .with_inputs(|| simulation(&Shape::Flat, cells))
+        .bench_refs(|simulation| moves.iter().for_each(|own| simulation.push(*own)));
+}
+
 /// The state after a move by chance, of 200,000 with a tool of so many cells in radius.
 #[divan::bench(sample_count = 60, sample_size = 1, args = [2.5, 10.0])]
 fn seek(bencher: Bencher, cells: f64) {

@@ -1,9 +1,14 @@
 //! Arcs that stay level: of each cell, the nearest place of the arc counts.
+//!
+//! Distances are in single precision, which is fine enough up to [`WIDEST`].
 
-use wide::f32x4;
+use wide::{CmpGe, CmpGt, CmpLe, CmpLt, f32x4};
 
-use crate::band::Band;
-use crate::surface::{Cells, Surface};
+use crate::band::{Band, Form};
+use crate::surface::{Cells, Surface, not_below_zero};
+
+/// Radius of the widest arc, mm.
+pub(super) const WIDEST: f64 = 1000.0;
 
 /// A level arc: over each cell, the nearest place of the tip counts.
 pub(super) fn level_arc(
@@ -37,9 +42,9 @@ pub(super) fn level_arc(
             if left > right || columns.is_empty() {
                 continue;
             }
-            let x0 = grid.centre(0, columns.start) - centre[0];
-            let surface = Ring { sector: &sector, band, floor: from[2], from: [x0, y], cell: grid.cell };
-            cells.row(row, columns, &surface);
+            let x = (grid.centre(0, columns.start) - centre[0]) as f32;
+            let (floor, cell) = (from[2] as f32, grid.cell as f32);
+            cells.row(row, columns, &Ring { sector: &sector, band, floor, x, y: y as f32, cell });
         }
     }
 }
@@ -48,23 +53,28 @@ pub(super) fn level_arc(
 struct Ring<'r> {
     sector: &'r Sector,
     band: &'r Band,
-    floor: f64,
+    floor: f32,
     /// The first cell, from the centre of the arc.
-    from: [f64; 2],
-    cell: f64,
+    x: f32,
+    y: f32,
+    cell: f32,
 }
 
 impl Surface for Ring<'_> {
     #[inline(always)]
     fn at(&self, i: f32x4) -> f32x4 {
-        f32x4::new(i.to_array().map(|i| {
-            let at = [self.from[0] + f64::from(i) * self.cell, self.from[1]];
-            let distance = self.sector.distance(at);
-            match distance <= self.band.outer {
-                true => (self.floor + self.band.height(distance)) as f32,
-                false => f32::INFINITY,
+        let distance = self.sector.distance([i * self.cell + self.x, f32x4::splat(self.y)]);
+        let (base, inner) = ((self.band.base as f32) + self.floor, self.band.inner as f32);
+        let beyond = not_below_zero(distance - inner);
+        let height = match self.band.form {
+            Form::Flat => f32x4::splat(base),
+            Form::Cone(slope) => beyond * (slope as f32) + base,
+            Form::Round(radius) => {
+                let radius = radius as f32;
+                -not_below_zero(f32x4::splat(radius * radius) - beyond * beyond).sqrt() + (base + radius)
             }
-        }))
+        };
+        distance.cmp_le(f32x4::splat(self.band.outer as f32)).blend(height, f32x4::splat(f32::INFINITY))
     }
 }
 
@@ -80,16 +90,22 @@ struct Sector {
 
 /// The direction of a place in quarters of a turn, from 0 to 4: it grows as the angle does, which is enough to spread what
 /// is small.
-#[inline]
-fn quarters([x, y]: [f64; 2]) -> f64 {
-    let part = y / (x.abs() + y.abs()).max(f64::MIN_POSITIVE);
-    if x < 0.0 {
-        2.0 - part
-    } else if y < 0.0 {
-        4.0 + part
-    } else {
-        part
-    }
+#[inline(always)]
+fn quarters([x, y]: [f32x4; 2]) -> f32x4 {
+    let part = y / (x.abs() + y.abs()).fast_max(f32x4::splat(f32::MIN_POSITIVE));
+    let right = y.cmp_lt(f32x4::ZERO).blend(part + 4.0, part);
+    x.cmp_lt(f32x4::ZERO).blend(-part + 2.0, right)
+}
+
+#[inline(always)]
+fn length([x, y]: [f32x4; 2]) -> f32x4 {
+    (x * x + y * y).sqrt()
+}
+
+/// A place, four times.
+#[inline(always)]
+fn four(at: [f64; 2]) -> [f32x4; 2] {
+    at.map(|value| f32x4::splat(value as f32))
 }
 
 impl Sector {
@@ -99,50 +115,52 @@ impl Sector {
     }
 
     /// The radius of the arc in a direction that is one of it.
-    #[inline]
-    fn radius(&self, at: [f64; 2]) -> f64 {
+    #[inline(always)]
+    fn radius(&self, at: [f32x4; 2]) -> f32x4 {
         let [begin, end] = self.radii;
+        let constant = f32x4::splat(begin as f32);
         if begin == end {
-            return begin;
+            return constant;
         }
         // Quarters from one direction to another in the sense of the arc.
-        let turn =
-            |to: [f64; 2]| ((quarters(to) - quarters(self.start)) * self.sweep.signum()).rem_euclid(4.0);
-        let all = turn(self.end);
-        let part = if all > 0.0 { (turn(at) / all).min(1.0) } else { 0.0 };
-        begin + (end - begin) * part
+        let turn = |to: [f32x4; 2]| {
+            let turn = (quarters(to) - quarters(four(self.start))) * (self.sweep.signum() as f32);
+            turn.cmp_lt(f32x4::ZERO).blend(turn + 4.0, turn)
+        };
+        let all = turn(four(self.end));
+        let part = (turn(at) / all).fast_min(f32x4::splat(1.0));
+        let part = all.cmp_gt(f32x4::ZERO).blend(part, f32x4::ZERO);
+        constant + part * ((end - begin) as f32)
     }
 
-    /// Whether a direction is one of the arc.
-    #[inline]
-    fn has(&self, at: [f64; 2]) -> bool {
-        let cross = |a: [f64; 2], b: [f64; 2]| (a[0] * b[1] - a[1] * b[0]) * self.sweep.signum();
-        let behind_start = cross(self.start, at) >= 0.0;
-        let before_end = cross(at, self.end) >= 0.0;
+    /// Whether directions are of the arc: all bits of a number set, or none.
+    #[inline(always)]
+    fn has(&self, [x, y]: [f32x4; 2]) -> f32x4 {
+        let sense = self.sweep.signum();
+        let [start, end] = [self.start, self.end].map(|[x, y]| [(x * sense) as f32, (y * sense) as f32]);
+        let behind_start = (y * start[0] - x * start[1]).cmp_ge(f32x4::ZERO);
+        let before_end = (x * end[1] - y * end[0]).cmp_ge(f32x4::ZERO);
         match self.sweep.abs() {
             // Chords of an arc that ends where it begins would be no arc.
-            sweep if sweep >= std::f64::consts::TAU - 1e-9 => true,
-            sweep if sweep <= std::f64::consts::PI => behind_start && before_end,
-            _ => behind_start || before_end,
+            sweep if sweep >= std::f64::consts::TAU - 1e-9 => f32x4::ZERO.cmp_le(f32x4::ZERO),
+            sweep if sweep <= std::f64::consts::PI => behind_start & before_end,
+            _ => behind_start | before_end,
         }
     }
 
-    /// Distance of a place from the arc.
-    #[inline]
-    fn distance(&self, at: [f64; 2]) -> f64 {
-        let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
-        if self.has(at) {
-            return (length(at) - self.radius(at)).abs();
-        }
-        let from = |end: [f64; 2]| length([at[0] - end[0], at[1] - end[1]]);
-        from(self.start).min(from(self.end))
+    /// Distances of places from the arc.
+    #[inline(always)]
+    fn distance(&self, at: [f32x4; 2]) -> f32x4 {
+        let along = (length(at) - self.radius(at)).abs();
+        let from = |end: [f64; 2]| length([at[0] - end[0] as f32, at[1] - end[1] as f32]);
+        self.has(at).blend(along, from(self.start).fast_min(from(self.end)))
     }
 
     /// The box around the arc.
     fn box_around(&self, radius: f64) -> [[f64; 2]; 2] {
         let ends = [self.start, self.end];
         let tops = [[radius, 0.0], [0.0, radius], [-radius, 0.0], [0.0, -radius]];
-        let all = ends.into_iter().chain(tops.into_iter().filter(|top| self.has(*top)));
+        let all = ends.into_iter().chain(tops.into_iter().filter(|top| self.has(four(*top)).any()));
         all.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
             [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
         })

@@ -13,7 +13,7 @@
 use std::ops::Range;
 
 use crate::band::{Band, Form};
-use crate::level_arc::level_arc;
+use crate::level_arc::{WIDEST, level_arc};
 use crate::moves::Way;
 use crate::rows::{LowEnd, Rows};
 use crate::surface::{
@@ -41,7 +41,9 @@ pub(crate) fn sweep(
     match way {
         Way::Away => {}
         Way::Rapid | Way::Feed => straight(cells, cutter, [from, to], continues),
-        Way::Arc { plane: [0, 1, 2], centre, sweep } if from[2] == to[2] => {
+        Way::Arc { plane: [0, 1, 2], centre, sweep }
+            if from[2] == to[2] && distance([from[0], from[1]], *centre) < WIDEST =>
+        {
             for band in cutter.bands() {
                 level_arc(cells, band, [from, to], *centre, *sweep);
             }

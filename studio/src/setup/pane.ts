@@ -16,6 +16,8 @@ const SHAPES: [string, TextName, string, string][] = [
   ["drill", "drill", "angle", "°"],
   ["chamfer", "chamfer", "angle", "°"],
   ["taper", "taper", "angle", "°"],
+  ["lollipop", "lollipop", "", ""],
+  ["t-slot", "tSlot", "", ""],
 ];
 
 /** Where a diameter comes from. */
