@@ -91,7 +91,10 @@ pub(crate) fn project(
 ) -> Result<(Exit, Outputs), Problem> {
     let mut source = open(&asked.file, false, files, messages)?;
     let machines = Machines { from: profile(asked.machine_from.as_deref(), files)?, to: None };
-    let (from, _) = settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, None)?;
+    let (from, rivals) = settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, None)?;
+    if !rivals.is_empty() {
+        return Err(project_file::undecided(&asked.file));
+    }
     let to = named(asked.to.as_deref())?.map(|dialect| dialect.id.as_str());
     let text = asked.project.as_ref().and_then(|name| files.get(name)).map(Vec::as_slice).unwrap_or_default();
     let text = String::from_utf8_lossy(text);

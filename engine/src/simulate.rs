@@ -73,8 +73,7 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     let profile = profile(one.machine.as_deref(), files)?;
     let Side { mut source, job } = side(one, files, messages)?;
     let (plan, unstated) = plan(&job, profile.as_deref());
-    let acceleration = profile.as_deref().and_then(|profile| profile.machine().spindle_acceleration);
-    let mut recorder = Watched::new(&plan, acceleration);
+    let mut recorder = Watched::new(&plan);
     let course = drive(&plan, &mut source, &mut recorder, &mut Unwatched).map_err(cannot)?;
     let shown = source.shown.clone();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };

@@ -153,3 +153,19 @@ fn lines_of_a_translation_have_their_source() {
     assert_eq!((of("Z-1"), of("M3"), of("M30")), (Some(7), Some(5), Some(8)), "{output}\n{lines:?}");
     assert_eq!(lines[0], 0);
 }
+
+/// The answers for a program are written for the control that is stated; where several fit, nobody has said which.
+#[test]
+fn answers_go_into_a_project_file() {
+    let text = "%\nO0101\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG54 G0 X0. Y0. S3000 M3\nG43 H1 Z50.\nG1 Z-5 F100.\nM30\n%\n";
+    let request = |from: &str| {
+        let options = r#""to": "siemens", "from_option": { "decimal_point": "calculator" }"#;
+        format!(r#"{{ "verb": "project", "file": "part.nc", "from": "{from}", {options} }}"#)
+    };
+    let (code, output, told) = done(text, &request("fanuc"));
+    assert_eq!(code, 0, "{told}");
+    assert!(output.contains("options = { decimal_point = \"calculator\" }"), "{output}");
+    let (code, output, told) = done(text, &request("auto"));
+    assert_eq!((code, output.as_str()), (1, ""), "{told}");
+    assert!(told.contains("choose the control first"), "{told}");
+}

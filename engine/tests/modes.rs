@@ -11,6 +11,7 @@ struct Modes {
 impl Modes {
     fn of(text: &str, from: &str, machine: &str) -> Modes {
         let mut engine = Engine::default();
+        engine.put("shop.toml", SHOP.as_bytes().to_vec());
         engine.put("part.nc", text.as_bytes().to_vec());
         let machine = if machine.is_empty() { String::new() } else { format!(r#", "machine": "{machine}""#) };
         let code =
@@ -64,6 +65,11 @@ impl Modes {
         self.after(moves.iter().filter(|own| **own <= f64::from(number)).count())
     }
 }
+
+/// A machine that states what leads to it, and how long its spindle runs up and down.
+const SHOP: &str = "id = \"shop\"\ntitle = \"Shop\"\ndialect = \"fanuc\"\n[times]\nspindle_start = 3\nspindle_stop = 2\n\
+    [[work_offset]]\nnumber = 1\nx = -100\ny = -200\nz = -300\n[[work_offset]]\nnumber = 2\nx = -110\ny = -200\nz = -300\n\
+    [[tool]]\nnumber = 1\nlength = 80\n";
 
 const PART: &str = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nT3 M6\nG55 G0 X10. Y10. S3000 M3\nG43 H3 Z10. M8\n\
     G1 Z-2. F200.\n\nG41 D13 X50. F600.\nG2 X60. Y20. R10.\nG40 G1 X70.\nG0 Z10. M9\nG99 G83 X20. Y20. Z-9. R2. Q3. F150.\n\
@@ -123,5 +129,18 @@ fn places_lead_to_the_machine_and_to_the_work_offset() {
     let modes = Modes::of(text, "fanuc", "");
     assert_eq!(modes.column("turn_a"), [0.0, 90.0]);
     assert_eq!(modes.column("shift_known").iter().sum::<f64>(), 0.0);
-    assert!(modes.column("spindle_from").is_empty());
+    let text = text.replace("G54 G0", "G54 S3000 M3\nG0").replace("A90.", "M5");
+    let modes = Modes::of(&text, "fanuc", "shop.toml");
+    let ends = |from: &str, to: &str| (modes.column(from), modes.column(to));
+    assert_eq!(ends("spindle_before", "spindle_after"), (vec![0.0, 3000.0], vec![3000.0, 0.0]));
+    let (from, to) = ends("spindle_from", "spindle_to");
+    assert!((to[0] - from[0] - 3.0).abs() < 1e-9 && (to[1] - from[1] - 2.0).abs() < 1e-9, "{from:?} {to:?}");
+    assert!(modes.column("turn_a").is_empty());
+    let at = |column: &str, number: f64| {
+        let own = modes.column("shift_move").iter().rposition(|own| *own <= number).expect("a shift");
+        modes.column(column)[own]
+    };
+    assert_eq!((at("shift_known", 1.0), at("shift_known", 3.0)), (7.0, 7.0));
+    assert_eq!((at("shift_x", 3.0), at("shift_z", 3.0)), (-100.0, -220.0));
+    assert_eq!((at("offset_x", 2.0), at("offset_x", 3.0)), (0.0, 10.0));
 }

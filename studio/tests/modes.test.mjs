@@ -64,3 +64,36 @@ page("rotary axes have rows where one moves, and none elsewhere", {}, async (own
   assert.equal(await value(own, "#now-a"), "90.000");
   assert.equal(await value(own, "#now-x-machine"), "–");
 });
+
+/** How many of the spindle chart's columns have ink between the speeds, off the axis and off the top. */
+const slope = (own) =>
+  own.evaluate(() => {
+    const canvas = document.querySelectorAll("#charts canvas")[1];
+    const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const style = getComputedStyle(document.documentElement).getPropertyValue("--c-move-clockwise").trim();
+    const pen = document.createElement("canvas").getContext("2d");
+    pen.fillStyle = style;
+    pen.fillRect(0, 0, 1, 1);
+    const ink = pen.getImageData(0, 0, 1, 1).data;
+    const rows = new Map();
+    for (let y = 0; y < height; y += 1)
+      for (let x = 0; x < width; x += 1) {
+        const at = (y * width + x) * 4;
+        if ([0, 1, 2].every((channel) => Math.abs(data[at + channel] - ink[channel]) < 40)) rows.set(y, (rows.get(y) ?? new Set()).add(x));
+      }
+    const all = [...rows.keys()];
+    const [top, bottom] = [Math.min(...all), Math.max(...all)];
+    const middle = all.filter((y) => y > top + 4 && y < bottom - 4);
+    const columns = new Set(middle.flatMap((y) => [...rows.get(y)]));
+    return columns.size;
+  });
+
+both("the spindle runs up and down in slopes where its machine states how long, and in steps elsewhere", {}, async (own) => {
+  await type(own, SQUARE);
+  const steps = await slope(own);
+  await own.selectOption("#machine", "fanuc-vmc");
+  await own.waitForTimeout(200);
+  await ready(own);
+  const slopes = await slope(own);
+  assert.ok(slopes > steps + 8, `${slopes} columns of slopes, ${steps} of steps`);
+});

@@ -91,3 +91,5 @@ problem-project-shared = a row of { $file } is about { $program } and others
     .help = give { $program } a row of its own, or write the answer into that row
 problem-project-named = { $file } cannot hold answers beside a named machine
     .help = write them into the machine's profile, under [options]
+problem-project-undecided = { $program } may be for several controls, and { $file } needs one
+    .help = choose the control first

@@ -32,6 +32,11 @@ fn refused(form: &'static str, program: &str) -> Problem {
     Problem::of(Exit::Refused, &problem(form).text("program", program).text("file", NAME), None)
 }
 
+/// Why nothing is written where several dialects fit: the row would answer which one, and nobody has.
+pub fn undecided(program: &str) -> Problem {
+    refused("project-undecided", program)
+}
+
 /// The name of a program as a pattern that matches nothing else.
 fn pattern(program: &str) -> String {
     let plain = |letter: char| match letter {

@@ -11,7 +11,7 @@
 //! | `shift_move`, `shift_known` | from this move on; bits of X, Y, Z where it is stated what leads to the machine |
 //! | `shift_x` … `shift_z`, `offset_x` … `offset_z` | added to a place of the part: one of the machine; one of the active work offset |
 //! | `turn_move`, `turn_a` … `turn_c` | where rotary axes stand behind a move; none where none moves |
-//! | `spindle_from`, `spindle_to`, `spindle_before`, `spindle_after` | from when until when the spindle runs up or down, between which rev/min; none where the machine states no acceleration |
+//! | `spindle_from`, `spindle_to`, `spindle_before`, `spindle_after` | from when until when the spindle runs up or down, between which rev/min; the same moment where its machine states no time for it |
 
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -20,7 +20,7 @@ use ncc_dialects::{Dialect, Meaning, NameMeaning, Role};
 use ncc_exec::{Attribute, Kind};
 use ncc_ir::canon::{Motion, Spindle, SpindleMode, Turn, Units};
 use ncc_ir::expr::num::{Nanos, ONE};
-use ncc_time::Timed;
+use ncc_time::{Model, Timed};
 use serde_json::Map;
 
 use super::columns::{bytes, table};
@@ -71,8 +71,6 @@ struct Run {
 pub struct Watched<'t> {
     recorder: Recorder<'t>,
     plan: &'t Plan<'t>,
-    /// rev/min per second, if the machine states it.
-    acceleration: Option<f64>,
     texts: Vec<String>,
     places: HashMap<String, u32>,
     last: Active,
@@ -92,12 +90,11 @@ pub struct Watched<'t> {
 }
 
 impl<'t> Watched<'t> {
-    /// Of a plan. `acceleration` is the spindle's as its machine states it, rev/min per second.
-    pub fn new(plan: &'t Plan<'t>, acceleration: Option<f64>) -> Watched<'t> {
+    /// Of a plan.
+    pub fn new(plan: &'t Plan<'t>) -> Watched<'t> {
         Watched {
             recorder: Recorder::new(&plan.tables, false),
             plan,
-            acceleration,
             texts: Vec::new(),
             places: HashMap::new(),
             last: Active::default(),
@@ -169,9 +166,11 @@ impl<'t> Watched<'t> {
                     Attribute::StopSpindle | Attribute::StartSpindle(_) | Attribute::SpindleSpeed(_)
                 )
         );
-        if let Some(rate) = self.acceleration.filter(|_| takes_time && before != after) {
-            let end = timed.start + (after - before).abs() / rate;
-            self.runs.push(Run { times: [timed.start, end.min(timed.end())], speeds: [before, after] });
+        if takes_time && before != after {
+            // The time of the M function itself is none of the run; the ideal clock has none.
+            let function = self.plan.machine.m_function.filter(|_| self.plan.model != Model::Ideal);
+            let run = (timed.duration - function.unwrap_or(0.0)).max(0.0);
+            self.runs.push(Run { times: [timed.start, timed.start + run], speeds: [before, after] });
         }
     }
 

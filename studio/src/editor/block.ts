@@ -29,7 +29,7 @@ export function toggleBlock(view: EditorView, ask: AskModes): boolean {
   const line = view.state.doc.lineAt(head);
   const active = ask(line.number);
   const dom = el("div", { class: "about", role: "status" }, active ? modesTable(active) : say("noModes"));
-  view.dispatch({ effects: show.of({ pos: line.from, above: true, create: () => ({ dom }) }) });
+  view.dispatch({ effects: show.of({ pos: head, above: true, create: () => ({ dom }) }) });
   return true;
 }
 

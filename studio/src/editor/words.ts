@@ -2,8 +2,8 @@
 // `words`), each with who says so.
 
 import { autocompletion, type Completion, type CompletionContext, type CompletionResult } from "@codemirror/autocomplete";
-import type { Extension } from "@codemirror/state";
-import { hoverTooltip } from "@codemirror/view";
+import type { Extension, Transaction } from "@codemirror/state";
+import { hoverTooltip, type HoverTooltipSource } from "@codemirror/view";
 import { el } from "../ui/dom";
 import { modesTable } from "../ui/modes";
 import { say } from "../ui/texts";
@@ -38,7 +38,7 @@ function plain(word: string): string {
 const WORD = /[A-Za-z_$][A-Za-z_$0-9]{2,}|[A-Za-z](?=\s*[-+]?[\d.#[=])\s*[-+]?[\d.]*/g;
 
 export function explained(ask: AskWords, modes: AskModes): Extension {
-  const hover = hoverTooltip(async (view, position) => {
+  const about: HoverTooltipSource = async (view, position) => {
     const line = view.state.doc.lineAt(position);
     const match = [...line.text.matchAll(WORD)].find(
       ({ index, 0: text }) => line.from + index <= position && position <= line.from + index + text.length,
@@ -51,7 +51,10 @@ export function explained(ask: AskWords, modes: AskModes): Extension {
     const dom = row ? shown(row, words) : el("div", { class: "about" });
     if (active) dom.append(modesTable(active));
     return { pos: from, end: from + length, above: true, create: () => ({ dom }) };
-  });
+  };
+  // It lies over the lines before: whoever goes on has seen it.
+  const hideOn = (transaction: Transaction) => transaction.docChanged || transaction.selection !== undefined;
+  const hover = hoverTooltip(about, { hideOn, hoverTime: 450 });
   return [hover, autocompletion({ override: [(context) => complete(context, ask)], icons: false })];
 }
 

@@ -27,7 +27,7 @@ const MOST_RUNS = 4 * SLICES;
 
 /**
  * The spindle's speed: what each move has, and between two of them the runs to another speed, which are slopes where it is
- * stated how fast the spindle runs up and down, and steps elsewhere.
+ * stated how long the spindle runs up and down, and steps elsewhere.
  */
 export function spindle(path: Path): Curve {
   const runs = path.modes?.runs ?? [];
