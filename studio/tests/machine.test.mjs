@@ -253,7 +253,7 @@ both("many moves are lines for several where the device draws slowly, and a clic
   const [x, y] = await Promise.all(["x", "y"].map(async (axis) => Number(await value(own, `#now-${axis}`))));
   const middle = await own.evaluate(() => JSON.parse(document.querySelector("#canvas").dataset.middle));
   const seen = [box.x + box.width / 2 + (x - middle[0]) * scale, box.y + box.height / 2 - (y - middle[1]) * scale];
-  assert.ok(Math.hypot(seen[0] - at[0], seen[1] - at[1]) < 14, `${seen} for ${at}`);
+  assert.ok(Math.hypot(seen[0] - at[0], seen[1] - at[1]) < 8, `${seen} for ${at}`);
 });
 
 const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };
