@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { pixels, ready, type } from "./browser.mjs";
+import { pixels, placeOf, ready, type } from "./browser.mjs";
 import { hosts } from "./hosts.mjs";
-import { SQUARE } from "./programs.mjs";
+import { SQUARE, long } from "./programs.mjs";
 
 const { page, both } = hosts();
 const value = (own, selector) => own.locator(selector).textContent();
@@ -235,6 +235,25 @@ page("the time of a picture is shown on wish, and nothing is drawn while nothing
   const frames = await data(own, "frames");
   await own.waitForTimeout(1200);
   assert.equal(await data(own, "frames"), frames);
+});
+
+both("many moves are lines for several where the device draws slowly, and a click finds its move all the same", {}, async (own) => {
+  await type(own, long(310_000));
+  await own.waitForFunction(() => /a line is \d+ moves/.test(document.querySelector("#scale").textContent));
+  assert.equal(await data(own, "pieces"), "310002");
+  await own.click("#part");
+  await own.click('[data-side="top"]');
+  const at = await placeOf(own, "--c-move-feed");
+  await own.mouse.click(...at);
+  const line = Number(await data(own, "marked"));
+  assert.ok(line > 6, String(line));
+  // Its end is where the click was: the tool is there now.
+  const box = await own.locator("#canvas").boundingBox();
+  const scale = Number(await data(own, "scale"));
+  const [x, y] = await Promise.all(["x", "y"].map(async (axis) => Number(await value(own, `#now-${axis}`))));
+  const middle = await own.evaluate(() => JSON.parse(document.querySelector("#canvas").dataset.middle));
+  const seen = [box.x + box.width / 2 + (x - middle[0]) * scale, box.y + box.height / 2 - (y - middle[1]) * scale];
+  assert.ok(Math.hypot(seen[0] - at[0], seen[1] - at[1]) < 8, `${seen} for ${at}`);
 });
 
 const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };

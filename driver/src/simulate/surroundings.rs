@@ -41,3 +41,31 @@ impl Surroundings {
         Surroundings { zeros: zeros.collect(), travel }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The travel of a machine and the zeros lie around the zero of the first cut, where a profile states that one.
+    #[test]
+    fn zeros_and_travel_are_told_in_coordinates_of_the_part() {
+        let dialect = ncc_dialects::builtin("fanuc").expect("a built-in dialect");
+        let profile = ncc_machines::find("fanuc-vmc");
+        let path = Path {
+            offsets: vec![1, 2, 3],
+            zeros: vec![
+                [Some(-500.0), Some(-200.0), Some(-300.0)],
+                [Some(-400.0), Some(-200.0), Some(-310.0)],
+                [None; 3],
+            ],
+            ..Path::default()
+        };
+        let around = Surroundings::of(&path, dialect, profile);
+        let zeros = [("G54".to_owned(), [0.0; 3]), ("G55".to_owned(), [100.0, 0.0, -10.0])];
+        assert_eq!(around.zeros, zeros);
+        assert_eq!(around.travel, Some([[-500.0, -300.0, -200.0], [500.0, 200.0, 300.0]]));
+        let unstated = Path { zeros: vec![[None; 3]; 3], ..path };
+        let around = Surroundings::of(&unstated, dialect, profile);
+        assert_eq!((around.zeros.len(), around.travel), (1, None));
+    }
+}

@@ -236,6 +236,11 @@ export class MachineView {
     return this.camera.position.clone().sub(this.controls.target).normalize();
   }
 
+  /** What is in the middle of the picture. */
+  get middle(): Point {
+    return this.controls.target.toArray() as Point;
+  }
+
   /** How the picture sees. */
   get eye(): Eye {
     return { camera: this.camera, width: this.canvas.clientWidth, height: this.canvas.clientHeight };
