@@ -75,7 +75,8 @@ page("moves have colours by their kind, and a button hides each", {}, async (own
 });
 
 page("nothing is drawn while nothing changes", {}, async (own) => {
-  await own.waitForTimeout(500);
+  // The first pictures are timed, and drawn coarser or finer.
+  await own.waitForTimeout(2500);
   const frames = await own.getAttribute("#canvas", "data-frames");
   await own.waitForTimeout(1200);
   assert.equal(await own.getAttribute("#canvas", "data-frames"), frames);

@@ -124,7 +124,10 @@ export function heldBody(fixture: Fixture, stl: ArrayBuffer | undefined, color: 
   const group = new Group();
   const material = new MeshLambertMaterial({ color, transparent: true, opacity: 0.75, side: DoubleSide });
   if (form === "body" && stl) {
-    group.add(new Mesh(new STLLoader().parse(stl), material));
+    const geometry = new STLLoader().parse(stl);
+    // Many files state no normals.
+    geometry.computeVertexNormals();
+    group.add(new Mesh(geometry, material));
     return group;
   }
   const round = form === "cylinder";
