@@ -1,6 +1,7 @@
 // Commands of the editor: to a name's meaning, another name, layout and block numbers.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { MACRO, SQUARE } from "./programs.mjs";
 import { line, ready, type } from "./browser.mjs";
 import { tests, value } from "./pages.mjs";
@@ -114,3 +115,28 @@ page("a phone has the commands as buttons", { width: 390, height: 780, hasTouch:
   assert.ok((await own.evaluate(() => document.documentElement.scrollWidth)) <= 390);
   assert.equal(await line(own), 12);
 });
+
+const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };
+for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }], ["a phone", PHONE]]) {
+  page(`axe finds nothing in the dialog, the modes and the moves: ${name}`, options, async (own) => {
+    await own.evaluate(readFileSync(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8"));
+    const look = () => own.evaluate(async () => (await axe.run()).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(" ")}`));
+    await type(own, MACRO.replace("#100=1", "#100=1 (<b>)"));
+    await own.locator("#editor .cm-line", { hasText: "LE3" }).click();
+    await own.click("#rename-name");
+    await own.locator("#editor-dialog[open]").waitFor();
+    assert.deepEqual(await look(), []);
+    await own.keyboard.press("Escape");
+    await own.locator("#editor .cm-line", { hasText: "G1 Y#1" }).click();
+    await own.click("#block-modes");
+    await own.locator('#editor .about[role="status"]').waitFor();
+    assert.deepEqual(await look(), []);
+    await own.click(options === PHONE ? '#phone [data-goto="translate"]' : "#tab-translate");
+    await own.selectOption("#to", "siemens");
+    await ready(own);
+    await own.locator("#moves-box summary").click();
+    await own.click("#moves-compare");
+    await own.waitForFunction(() => /same|·|→|off|only/.test(document.querySelector("#moves-told").textContent));
+    assert.deepEqual(await look(), []);
+  });
+}
