@@ -1,6 +1,7 @@
 // Commands of the editor: to a name's meaning, another name, layout and block numbers.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { MACRO, SQUARE } from "./programs.mjs";
 import { line, ready, type } from "./browser.mjs";
 import { tests, value } from "./pages.mjs";
@@ -30,14 +31,15 @@ async function put(own, row, words) {
 
 both("F12, Ctrl+click and a button lead from a call, a jump and a loop's end to what is meant", {}, async (own) => {
   await type(own, MACRO);
-  const at = async (row, words) => own.mouse.click(...Object.values(await put(own, row, words)));
+  // What is told under the pointer lies over the lines before: it goes when the pointer does.
+  const leave = () => own.mouse.move(900, 300);
+  const at = async (row, words) => (await own.mouse.click(...Object.values(await put(own, row, words))), leave());
   await at("M98 P2000", "P2000");
   await own.keyboard.press("F12");
   await own.waitForFunction(() => document.querySelector("#editor").shadowRoot.querySelector(".cm-activeLineGutter").textContent === "12");
   await own.keyboard.press("F12");
   await own.waitForFunction(() => document.querySelector("#editor").shadowRoot.querySelector(".cm-activeLineGutter").textContent === "10");
   const jump = await put(own, "GOTO10", "10");
-  await own.mouse.move(jump.x, jump.y);
   await own.keyboard.down("Control");
   await own.mouse.click(jump.x, jump.y);
   await own.keyboard.up("Control");
@@ -113,3 +115,28 @@ page("a phone has the commands as buttons", { width: 390, height: 780, hasTouch:
   assert.ok((await own.evaluate(() => document.documentElement.scrollWidth)) <= 390);
   assert.equal(await line(own), 12);
 });
+
+const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };
+for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }], ["a phone", PHONE]]) {
+  page(`axe finds nothing in the dialog, the modes and the moves: ${name}`, options, async (own) => {
+    await own.evaluate(readFileSync(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8"));
+    const look = () => own.evaluate(async () => (await axe.run()).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(" ")}`));
+    await type(own, MACRO.replace("#100=1", "#100=1 (<b>)"));
+    await own.locator("#editor .cm-line", { hasText: "LE3" }).click();
+    await own.click("#rename-name");
+    await own.locator("#editor-dialog[open]").waitFor();
+    assert.deepEqual(await look(), []);
+    await own.keyboard.press("Escape");
+    await own.locator("#editor .cm-line", { hasText: "G1 Y#1" }).click();
+    await own.click("#block-modes");
+    await own.locator('#editor .about[role="status"]').waitFor();
+    assert.deepEqual(await look(), []);
+    await own.click(options === PHONE ? '#phone [data-goto="translate"]' : "#tab-translate");
+    await own.selectOption("#to", "siemens");
+    await ready(own);
+    await own.locator("#moves-box summary").click();
+    await own.click("#moves-compare");
+    await own.waitForFunction(() => /same|·|→|off|only/.test(document.querySelector("#moves-told").textContent));
+    assert.deepEqual(await look(), []);
+  });
+}

@@ -89,11 +89,21 @@ const slope = (own) =>
   });
 
 both("the spindle runs up and down in slopes where its machine states how long, and in steps elsewhere", {}, async (own) => {
-  await type(own, SQUARE);
-  const steps = await slope(own);
+  // Of one speed, so that no line but a slope or a step lies between it and nothing.
+  await type(own, SQUARE.replace("S2000", "S3000"));
+  assert.ok((await slope(own)) < 8);
   await own.selectOption("#machine", "fanuc-vmc");
   await own.waitForTimeout(200);
   await ready(own);
-  const slopes = await slope(own);
-  assert.ok(slopes > steps + 8, `${slopes} columns of slopes, ${steps} of steps`);
+  // That machine states 1.5 s for each.
+  const [, clock] = (await value(own, "#clock")).split(" / ");
+  const seconds = clock.split(":").reduce((sum, part) => sum * 60 + Number(part), 0);
+  const { width } = await own.locator("#charts .u-over").first().boundingBox();
+  const expected = (3 / seconds) * width;
+  const columns = await slope(own);
+  assert.ok(columns > expected * 0.6 && columns < expected * 1.5 + 6, `${columns} columns of ${expected}`);
+  // All charts have one axis.
+  await own.locator("#charts .u-over").first().click({ position: { x: width / 3, y: 5 } });
+  const places = await own.locator("#charts .chart-now").evaluateAll((all) => all.map((one) => Math.round(one.getBoundingClientRect().left)));
+  assert.equal(new Set(places).size, 1, places.join());
 });

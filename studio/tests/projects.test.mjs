@@ -51,6 +51,7 @@ page("a zip of programs makes a project of each, and what is no zip is told", {}
   await take(own, "job.zip", zip);
   await named(own, "b");
   await own.click("#projects-open");
+  await own.locator("#projects-list b", { hasText: /^b$/ }).waitFor();
   const names = await own.locator("#projects-list b").allTextContents();
   assert.ok(names.includes("<img src=x onerror=window.evil=1>") && names.includes("b"), names.join());
   assert.equal(await own.evaluate(() => window.evil), undefined);

@@ -139,6 +139,7 @@ export class Editing {
 
   /** A dialog with fields; what the work gives back is told in it, and where that is nothing it is shut. */
   private ask(head: string, fields: Field[], work: (values: string[]) => Promise<string>): void {
+    this.tell("");
     const wrong = el("p", { class: "wrong", role: "alert" });
     const inputs = fields.map(({ name, value, number }) => {
       const kind = number ? { type: "number", min: "0", max: "9999999", step: "1", required: true } : { type: "text", required: true };

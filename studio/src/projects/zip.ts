@@ -75,10 +75,10 @@ export function unzipped(bytes: Uint8Array): Packed[] {
     const folder = parts.join("/");
     folders.set(folder, (folders.get(folder) ?? new Map()).set(name, own));
   }
-  return [...folders].flatMap(([folder, own]) => projectsOf(folder, own));
+  return [...folders.values()].flatMap(projectsOf);
 }
 
-function projectsOf(folder: string, files: Map<string, Uint8Array>): Packed[] {
+function projectsOf(files: Map<string, Uint8Array>): Packed[] {
   const text = (name: string) => {
     const bytes = files.get(name);
     return bytes && new TextDecoder().decode(bytes);
@@ -88,7 +88,7 @@ function projectsOf(folder: string, files: Map<string, Uint8Array>): Packed[] {
   const programs = [...files].filter(([name]) => name !== ANSWERS && name !== ABOUT);
   return programs.map(([file, bytes]) => {
     const own = about && (about.file === file || programs.length === 1) ? about : undefined;
-    const name = own?.name || (programs.length === 1 && folder.split("/").at(-1)) || file.replace(/\.\w+$/, "");
+    const name = own?.name || file.replace(/\.\w+$/, "");
     return { name, file, bytes, ...(answers !== undefined && { answers }), ...(own?.choices && { choices: own.choices }) };
   });
 }

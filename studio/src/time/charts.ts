@@ -16,7 +16,7 @@ interface Row {
 }
 
 const ROWS: Row[] = [
-  { name: "feed", unit: "mm/min", ink: "--c-move-feed", of: (path) => [path.feed, path.feed] },
+  { name: "feed", unit: "mm/min", ink: "--c-move-feed", of: (path) => [path.feed, path.feed], curve: (path) => curve(path, path.feed, path.feed, 0) },
   { name: "spindle", unit: "1/min", ink: "--c-move-clockwise", of: (path) => [path.speed, path.speed], curve: spindle },
   { name: "Z", unit: "mm", ink: "--c-move-counterclockwise", of: (path) => [path.z0, path.z1] },
 ];

@@ -7,12 +7,29 @@ export type Curve = [times: number[], values: number[]];
 /** How many slices: two points each are more than a screen has pixels. */
 const SLICES = 1200;
 
-/** A curve of what moves have at their beginning and end. */
-export function curve(path: Path, from: ArrayLike<number>, to: ArrayLike<number>): Curve {
+/** When the last move is over, and the spindle has run down. */
+function endOf(path: Path): number {
+  return Math.max(path.seconds, path.modes?.runs.at(-1)?.to ?? 0);
+}
+
+/** A curve of what moves have at their beginning and end; behind the last one is `rest`, or what that had. */
+export function curve(path: Path, from: ArrayLike<number>, to: ArrayLike<number>, rest?: number): Curve {
+  const [times, values] = ofMoves(path, from, to);
+  const end = endOf(path);
+  if (end > path.seconds) {
+    const last = rest ?? values.at(-1) ?? 0;
+    times.push(path.seconds, end);
+    values.push(last, last);
+  }
+  return [times, values];
+}
+
+function ofMoves(path: Path, from: ArrayLike<number>, to: ArrayLike<number>): Curve {
   const { pieces, seconds, t0, t1 } = path;
   if (pieces <= SLICES) {
-    const times: number[] = [];
-    const values: number[] = [];
+    // All curves begin with the program, so that they have one axis: a spindle runs up before the first move.
+    const times: number[] = [0];
+    const values: number[] = [from[0] as number];
     for (let at = 0; at < pieces; at += 1) {
       times.push(t0[at] as number, t1[at] as number);
       values.push(from[at] as number, to[at] as number);
@@ -58,13 +75,13 @@ export function spindle(path: Path): Curve {
     }
     if (times.length > MOST_RUNS) return curve(path, path.speed, path.speed);
   }
-  put(path.seconds, values.at(-1) ?? 0);
+  put(endOf(path), values.at(-1) ?? 0);
   return [times, values];
 }
 
 function sliced(path: Path, from: ArrayLike<number>, to: ArrayLike<number>, width: number): Curve {
-  const times: number[] = [];
-  const values: number[] = [];
+  const times: number[] = [0];
+  const values: number[] = [from[0] as number];
   let slice = -1;
   let [low, high, rises] = [0, 0, true];
   const end = () => {
