@@ -156,7 +156,7 @@ fn a_part_is_shown_after_any_move() {
     engine.clear();
     assert_eq!(engine.run(r#"{ "verb": "seek", "moves": 0 }"#), 2);
     assert!(text(&engine, "messages").contains("no program was cut"));
-    for wrong in [r#""stock": "100x60""#, r#""tools": ["1=t-slot,10"]"#, r#""fixtures": ["none.stl"]"#] {
+    for wrong in [r#""stock": "100x60""#, r#""tools": ["1=spoon,10"]"#, r#""fixtures": ["none.stl"]"#] {
         let request = format!(r#"{{ "verb": "simulate", "file": "a.nc", "from": "fanuc", {wrong} }}"#);
         let (code, engine) = done(&[("a.nc", SLOT)], &request);
         assert!(code > 1, "{wrong}: {}", text(&engine, "messages"));
