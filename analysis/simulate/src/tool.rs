@@ -161,7 +161,7 @@ impl Cutter {
     }
 
     /// Its outline: radius and height above the tip, mm, from the axis outwards; straight between, round corners in
-    /// [`CORNERS`] pieces.
+    /// twelve pieces.
     pub fn outline(&self) -> Vec<[f64; 2]> {
         let mut points: Vec<[f64; 2]> = vec![[0.0, self.height(0.0).unwrap_or(0.0)]];
         for band in &self.bands {
