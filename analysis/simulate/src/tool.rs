@@ -61,6 +61,13 @@ pub enum CutterFault {
         /// Radius of the tool, mm.
         radius: f64,
     },
+    /// The neck of a lollipop or T-slot cutter is no thinner than what cuts.
+    Neck {
+        /// Diameter of the neck, mm.
+        neck: f64,
+        /// Diameter of the tool, mm.
+        diameter: f64,
+    },
     /// A profile that becomes thinner upwards: it would cut under what stays.
     Undercut,
 }

@@ -42,6 +42,8 @@ simulate-no-cutter = tool { $tool }: { $name } { $value } is not possible
     .help = state the tool: `--tool { $tool }=flat,10`
 simulate-no-cutter-corner = tool { $tool }: corners of { $corner } mm on a radius of { $radius } mm
     .help = state the tool: `--tool { $tool }=bull-nose,10,corner=1`
+simulate-no-cutter-neck = tool { $tool }: a neck of { $neck } mm on a diameter of { $diameter } mm
+    .help = the neck (`shank`) is thinner than what cuts: `--tool { $tool }=t-slot,16,flute=5,shank=7`
 simulate-undercut = tool { $tool } becomes thinner upwards: only a lollipop or a T-slot cutter may
     .help = simulate the program without it
 simulate-shape-flat = flat

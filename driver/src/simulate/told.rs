@@ -213,6 +213,9 @@ pub fn no_cutter(fault: &NoCutter) -> Problem {
         CutterFault::Corner { corner, radius } => {
             words("no-cutter-corner").text("corner", decimal(*corner)).text("radius", decimal(*radius))
         }
+        CutterFault::Neck { neck, diameter } => {
+            words("no-cutter-neck").text("neck", decimal(*neck)).text("diameter", decimal(*diameter))
+        }
         CutterFault::Undercut => words("undercut"),
     };
     let number = fault.number.to_string();

@@ -120,7 +120,7 @@ fn fit(
     };
     let is_on_neck = matches!(shape, Shape::TSlot | Shape::Lollipop);
     if let Some(neck) = own.shank.filter(|neck| is_on_neck && *neck >= diameter) {
-        return Err(no_cutter(CutterFault::Value("shank", neck)));
+        return Err(no_cutter(CutterFault::Neck { neck, diameter }));
     }
     let cutter = Cutter::new(&shape, diameter, flute.unwrap_or(LONG)).map_err(no_cutter)?;
     // A heading by hand may be about the part.
