@@ -68,9 +68,28 @@ export function paste(page, text) {
 /** The line of the cursor, as the gutter shows it. */
 export const line = async (page) => Number(await page.locator("#editor .cm-activeLineGutter").first().textContent());
 
+/** Waits until the picture stays as it is, three seconds at most: by software a fine part takes longer than a moment. */
+async function drawn(page) {
+  const frames = () =>
+    page.evaluate(() => {
+      const canvas = document.querySelector("#canvas");
+      const gl = canvas?.getContext("webgl2");
+      // What is read must have been drawn.
+      gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+      return canvas?.dataset.frames;
+    });
+  let before = await frames();
+  for (let tries = 0; tries < 10; tries += 1) {
+    await page.waitForTimeout(300);
+    const now = await frames();
+    if (now === before) return;
+    before = now;
+  }
+}
+
 /** How many pixels of an element are near each colour. */
 export async function pixels(page, selector, colours) {
-  await page.waitForTimeout(250);
+  await drawn(page);
   const shot = await page.locator(selector).screenshot();
   return page.evaluate(
     async ([source, wanted]) => {
