@@ -59,7 +59,14 @@ impl Changes {
     }
 
     fn bytes(&self) -> usize {
-        size_of::<(u32, u16)>() * self.runs.len() + 4 * self.heights.len() + 2 * self.last.len()
+        size_of::<(u32, u16)>() * self.runs.len()
+            + 4 * self.heights.len()
+            + 2 * self.last.len()
+            + self
+                .hollows
+                .iter()
+                .map(|(_, own)| size_of::<(usize, Vec<[f32; 2]>)>() + 8 * own.len())
+                .sum::<usize>()
     }
 }
 

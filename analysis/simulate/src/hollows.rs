@@ -13,7 +13,8 @@ use std::ops::Range;
 /// The hollows of a map: of few of its cells. Heights in mm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hollows {
-    /// Where they begin and end, by cell; apart from each other, the lowest first, and none reaches the cell's height.
+    /// By cell: the lower and the upper end of each hollow, the lowest first. Hollows of a cell do not touch each other, and none
+    /// reaches the height of the cell.
     cells: BTreeMap<usize, Vec<[f32; 2]>>,
 }
 
@@ -84,7 +85,7 @@ impl Hollows {
         self.cells.range(cells).map(|(cell, own)| (*cell, own.as_slice()))
     }
 
-    /// What of them lies above a level, along Z, of all cells together, mm.
+    /// The sum of the parts of all hollows above a level, along Z, mm.
     pub(crate) fn length_above(&self, level: f64) -> f64 {
         let above = |[low, high]: &[f32; 2]| (f64::from(*high) - f64::from(*low).max(level)).max(0.0);
         // Not `sum`, which makes nothing less than nothing of none.
@@ -99,7 +100,7 @@ impl Hollows {
     }
 }
 
-/// What of the first lies in none of the second; both lie apart, the lowest first.
+/// The parts of the first intervals that are in none of the second ones. Intervals of a list do not touch, and the lowest is first.
 pub fn without(all: &[[f32; 2]], other: &[[f32; 2]]) -> Vec<[f32; 2]> {
     let mut left = Vec::new();
     for [low, high] in all {

@@ -84,7 +84,7 @@ pub struct HeightMap {
     pub heights: Vec<f32>,
     /// Number of the move that made the height, counted from 1; 0 where none did.
     pub last: Vec<u32>,
-    /// Where there is no material under these heights.
+    /// Spaces without material below these heights.
     pub hollows: Hollows,
 }
 

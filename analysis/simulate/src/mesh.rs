@@ -114,7 +114,7 @@ pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(T
 fn blocks(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(Triangle)) {
     let [width, height] = map.grid.cells;
     let [columns, rows] = [width.div_ceil(step), height.div_ceil(step)];
-    // Of each block, the cell in its middle stands for all.
+    // A block has the material of the cell in its middle.
     let middle = |n: usize, cells: usize| (n * step + step / 2).min(cells - 1);
     let of = |i: usize, j: usize| map.material(middle(j, height) * width + middle(i, width), level);
     let place = |axis: usize, n: usize, cells: usize| {

@@ -1,4 +1,4 @@
-//! Which cells of rows a tool touches that goes along a line: four rows at once.
+//! The cells that a tool touches on its way along a line, row by row: four rows at once.
 //!
 //! ```text
 //!          ╭──────────╮          left, right      where the row is within the radius of the line
@@ -35,9 +35,9 @@ pub(crate) struct Rows {
     pub(crate) columns: usize,
 }
 
-/// The low end of a line: behind it the tool comes lowest there, and under what is level of the tool.
+/// The low end of a line. Behind it, and below the level part of the tool, no other place of the way is as low.
 pub(crate) struct LowEnd {
-    /// Where it is.
+    /// Its place.
     pub(crate) at: [f32; 2],
     /// The direction in which the way rises from there.
     pub(crate) uphill: [f32; 2],
@@ -83,7 +83,7 @@ impl Rows {
         if uy != 0.0 && self.length > 0.0 {
             let per_y = 1.0 / uy;
             for side in [self.radius, -self.radius] {
-                // Where the row is on this parallel.
+                // The place along this parallel where the row crosses it.
                 let part = (y - side * ux) * per_y;
                 let on = part.cmp_ge(f32x4::ZERO) & part.cmp_le(f32x4::splat(self.length));
                 let x = part * ux - side * uy;
