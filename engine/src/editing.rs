@@ -48,7 +48,7 @@ pub(crate) fn layout(
     Ok((Exit::Done, vec![("output", text)]))
 }
 
-/// The names of a program, and for each of their places five numbers: which name, line, first column, the column behind
+/// The names of a program, whether other files may use them, and for each of their places five numbers: which name, line, first column, the column behind
 /// it, and whether the name gets its meaning there.
 pub(crate) fn names(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let mut side = side(one, files, messages)?;
@@ -63,8 +63,9 @@ pub(crate) fn names(one: &One, files: &Files, messages: &mut Buffer) -> Result<(
             places.push(usize::from(place.defines));
         }
     }
-    let names: Vec<Value> =
-        found.names.iter().map(|name| json!({ "sort": name.sort, "text": name.text })).collect();
+    let about =
+        |name: &names::Name| json!({ "sort": name.sort, "text": name.text, "shared": name.is_shared() });
+    let names: Vec<Value> = found.names.iter().map(about).collect();
     let document = json!({ "names": names, "places": places });
     Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }

@@ -169,3 +169,16 @@ fn answers_go_into_a_project_file() {
     assert_eq!((code, output.as_str()), (1, ""), "{told}");
     assert!(told.contains("choose the control first"), "{told}");
 }
+
+/// What programs in other files may use too: programs and common variables, not what a program has for itself.
+#[test]
+fn names_that_other_files_may_use_are_marked() {
+    let text = "%\nO1000\nG21 G17 G90 G94 G54\n#1=2\n#100=3\nWHILE [#1 GT 0] DO1\n#1=#1-1\nEND1\nM98 P2000\nM30\nO2000\nM99\n%\n";
+    let (code, document, told) = done(text, r#"{ "verb": "names", "file": "part.nc", "from": "fanuc" }"#);
+    assert_eq!(code, 0, "{told}");
+    let document: Value = serde_json::from_str(&document).expect("JSON");
+    let names = document["names"].as_array().expect("names").iter();
+    let shared: Vec<&str> =
+        names.filter(|name| name["shared"] == true).filter_map(|name| name["text"].as_str()).collect();
+    assert_eq!(shared, ["1000", "100", "2000"]);
+}

@@ -60,7 +60,7 @@ both("F2 gives a variable another name at all places, as one step back", {}, asy
   await own.keyboard.press("F2");
   const dialog = own.locator("#editor-dialog[open]");
   await dialog.waitFor();
-  assert.match(await value(own, "#editor-dialog-title"), /100: 5 places/);
+  assert.match(await value(own, "#editor-dialog-title"), /100: 5 places Other files that use it are not changed\./);
   await own.keyboard.type("#101");
   await own.keyboard.press("Enter");
   await dialog.waitFor({ state: "detached" });

@@ -3,11 +3,10 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { pixels, placeOf, ready, type } from "./browser.mjs";
-import { hosts } from "./hosts.mjs";
+import { tests, value } from "./pages.mjs";
 import { SQUARE, long } from "./programs.mjs";
 
-const { page, both } = hosts();
-const value = (own, selector) => own.locator(selector).textContent();
+const { page, both } = tests();
 const data = (own, name) => own.getAttribute("#canvas", `data-${name}`);
 
 /** A slot 10 mm wide and 4 mm deep along X through the middle of a block of 80 × 40 × 20 mm. */

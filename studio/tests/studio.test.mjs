@@ -1,37 +1,16 @@
 // The page as a user has it, in a browser without a window: what is seen (elements, pixels), and what is kept.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { begin, line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
+import { line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
 import { NCC, studio } from "./binary.mjs";
+import { tests, value } from "./pages.mjs";
 import { ASKS, SQUARE, long } from "./programs.mjs";
 
-let world;
-before(async () => (world = await begin()));
-after(() => world.end());
-
-/** A test with a page of its own, which must tell no error. */
-function page(name, options, body) {
-  const skip = options.host === "loopback" && !NCC && "NCC names no binary";
-  test(name, { skip }, async () => {
-    const opened = await open(world, options);
-    try {
-      await body(opened.page, opened);
-      assert.deepEqual(opened.faults, []);
-    } finally {
-      await opened.context.close();
-    }
-  });
-}
-
-/** A test over both hosts of the engine. */
-function both(name, options, body) {
-  page(name, options, body);
-  page(`${name} (loopback)`, { ...options, host: "loopback" }, body);
-}
+const { page, both, world } = tests();
 
 async function projects(own) {
   await own.click("#projects-open");
@@ -43,8 +22,6 @@ async function named(own, name) {
   await own.waitForFunction((wanted) => document.querySelector("#project-name").textContent === wanted, name);
   await ready(own);
 }
-
-const value = (own, selector) => own.locator(selector).textContent();
 
 page("the browser has WebGL 2", {}, async (own) => {
   assert.ok(await own.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null));
@@ -448,10 +425,10 @@ page("a phone has a pane at a time, with an editor", PHONE, async (own) => {
 });
 
 test("a browser without SIMD in WebAssembly is told that it is too old", async () => {
-  const context = await world.browser.newContext({ locale: "en-US" });
+  const context = await world().browser.newContext({ locale: "en-US" });
   const own = await context.newPage();
   await own.addInitScript(() => (WebAssembly.validate = () => false));
-  await own.goto(world.site.url);
+  await own.goto(world().site.url);
   await own.waitForSelector('#state[data-state="failed"]', { state: "attached" });
   assert.match(await value(own, "#problems-list"), /too old for the compiler/);
   await context.close();
@@ -463,7 +440,7 @@ test("ncc studio: a folder's programs are opened, saved back, and followed", { s
   writeFileSync(file, SQUARE);
   const server = await studio(folder);
   try {
-    const { page: own, context, faults } = await open(world, { address: server.address });
+    const { page: own, context, faults } = await open(world(), { address: server.address });
     assert.equal(await value(own, "#project-name"), "part.nc");
     await type(own, SQUARE.replace("(SQUARE)", "(TYPED)"));
     await own.waitForFunction(() => document.querySelector("#save-state").textContent === "Saved");
@@ -489,7 +466,7 @@ test("where WebGL 2 is missing, the page says so and does the rest", async () =>
       return kind.startsWith("webgl") ? null : own.call(this, kind, ...rest);
     };
   };
-  const { page: own, context, faults } = await open(world, { script });
+  const { page: own, context, faults } = await open(world(), { script });
   assert.match(await value(own, "#picture-told"), /WebGL 2 is missing/);
   assert.equal(await own.locator("#charts canvas").count(), 3);
   assert.deepEqual(faults, []);
@@ -497,7 +474,7 @@ test("where WebGL 2 is missing, the page says so and does the rest", async () =>
 });
 
 test("without a network the page is there again", async () => {
-  const { page: own, context } = await open(world);
+  const { page: own, context } = await open(world());
   await own.evaluate(() => navigator.serviceWorker.ready);
   await context.setOffline(true);
   await own.reload();
@@ -507,8 +484,8 @@ test("without a network the page is there again", async () => {
 });
 
 test("two tabs on one project: the other one takes over what was saved", async () => {
-  const { page: one, context } = await open(world);
-  const { page: two } = await open(world, { context });
+  const { page: one, context } = await open(world());
+  const { page: two } = await open(world(), { context });
   await type(one, SQUARE);
   await two.waitForFunction(() =>
     document.querySelector("#editor").shadowRoot.querySelector(".cm-content").textContent.includes("SQUARE"),

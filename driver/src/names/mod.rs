@@ -61,6 +61,13 @@ pub struct Name {
     pub places: Vec<Place>,
 }
 
+impl Name {
+    /// Whether programs in other files may use it too: what is done here is not done there.
+    pub fn is_shared(&self) -> bool {
+        self.scope.is_none() && matches!(self.sort, Sort::Program | Sort::Variable)
+    }
+}
+
 /// A name that may be meant where nobody sees it.
 #[derive(Clone, Debug, PartialEq)]
 struct Doubt {

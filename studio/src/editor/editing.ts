@@ -10,7 +10,8 @@ import type { Editor } from "./editor";
 
 /** Of the verb `names`: five numbers a place (name, line, first column, the one behind, whether it is defined there). */
 interface Names {
-  names: { sort: string; text: string }[];
+  /** `shared`: programs in other files may use it. */
+  names: { sort: string; text: string; shared: boolean }[];
   places: number[];
 }
 
@@ -76,9 +77,9 @@ export class Editing {
   async rename(): Promise<void> {
     const found = await this.nameHere();
     if (!found) return;
-    const { here, text, places } = found;
+    const { here, text, shared, places } = found;
     this.tell("");
-    const head = say("renameOf", { name: text, count: places.length });
+    const head = say("renameOf", { name: text, count: places.length }) + (shared ? ` ${say("renameShared")}` : "");
     this.ask(head, [{ name: "rename1", value: text }], async ([to = ""]) => {
       const answer = await this.session.ask("rename", { line: here.line, column: here.from, to });
       return this.take(answer);
@@ -113,7 +114,7 @@ export class Editing {
     return "";
   }
 
-  private async nameHere(): Promise<{ here: Place; text: string; places: Place[] } | undefined> {
+  private async nameHere(): Promise<{ here: Place; text: string; shared: boolean; places: Place[] } | undefined> {
     const { line, column } = this.editor.place;
     const answer = await this.session.ask("names", {});
     const names = answer?.json<Names>("document");
@@ -123,8 +124,8 @@ export class Editing {
     const near = all.filter((place) => place.line === line && place.from - 1 <= column && column <= place.to);
     const here = near.find((place) => place.from <= column) ?? near[0] ?? this.only(all, line);
     if (!here) return void this.tell(say("noName"));
-    const text = names.names[here.name]?.text ?? "";
-    return { here, text, places: all.filter((place) => place.name === here.name) };
+    const { text = "", shared = false } = names.names[here.name] ?? {};
+    return { here, text, shared, places: all.filter((place) => place.name === here.name) };
   }
 
   /** The one name that a line uses: `GOTO 10`, `M98 P1000`. */
