@@ -215,6 +215,23 @@ fn an_arc_in_each_plane() {
     });
 }
 
+/// As wide as arcs are cut as such: single precision is fine enough.
+#[test]
+fn a_wide_level_arc() {
+    let (centre, radius) = ([20.0, 913.0], 899.0);
+    let place = |angle: f64| [centre[0] + radius * angle.sin(), centre[1] - radius * angle.cos(), -6.0];
+    let way = Way::Arc { plane: [0, 1, 2], centre, sweep: 0.12 };
+    let done = cut(&Shape::Drill { point: 90.0 }, 10.0, &[(Way::Feed, place(-0.06)), (way, place(0.06))]);
+    holds(done.map(), |x, y| {
+        let off = ((x - centre[0]).hypot(y - centre[1]) - radius).abs();
+        match off {
+            off if off < 4.999 => Some(-6.0 + off),
+            off if off > 5.001 => Some(0.0),
+            _ => None,
+        }
+    });
+}
+
 #[test]
 fn any_state_can_be_shown_again() {
     let mut rng = fastrand::Rng::with_seed(7);
