@@ -9,7 +9,7 @@ use codespan_reporting::term::termcolor::Buffer;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
 use ncc_driver::render::{About, Loudness, Told, human};
 use ncc_driver::side::Side;
-use ncc_driver::simulate::compare::Between;
+use ncc_driver::simulate::compare::{Between, TOLERANCE};
 use ncc_driver::simulate::cut::{Bench, CutProgram, cut};
 use ncc_driver::simulate::described::Described;
 use ncc_driver::simulate::modes::Watched;
@@ -28,9 +28,6 @@ use crate::request::{One, Seek, Simulate};
 
 /// The program that was cut last.
 pub(crate) type Kept = Option<Box<CutProgram>>;
-
-/// Heights of two parts that are no further apart are the same, mm: as of `ncc simulate --compare`.
-const TOLERANCE: f64 = 0.001;
 
 /// A program that was cut.
 struct Done {

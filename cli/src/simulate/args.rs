@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use ncc_driver::simulate::compare::TOLERANCE;
 use ncc_driver::simulate::described::Described;
 use ncc_driver::simulate::raw::{self, NoBody};
 use ncc_driver::simulate::tooling::{self, NoTool};
@@ -185,7 +186,7 @@ impl Simulate {
 
     /// The tolerance of the comparison, mm.
     pub(super) fn tolerance(&self) -> f64 {
-        self.tolerance.unwrap_or(if self.against.is_some() { 0.01 } else { 0.001 })
+        self.tolerance.unwrap_or(if self.against.is_some() { 0.01 } else { TOLERANCE })
     }
 }
 

@@ -6,6 +6,9 @@
 
 use ncc_simulate::{HeightMap, without};
 
+/// Heights of two programs' parts that differ by no more are the same, mm, where nobody states another tolerance.
+pub const TOLERANCE: f64 = 0.001;
+
 /// What lies between two parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Between {
