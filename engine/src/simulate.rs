@@ -21,7 +21,7 @@ use ncc_driver::source::Source;
 use ncc_driver::time::assumed;
 use ncc_driver::time::drive::{Unwatched, drive};
 use ncc_machines::Profile;
-use ncc_simulate::{Fixture, HeightMap, Stock};
+use ncc_simulate::{Face, Fixture, Stock, covered, faces};
 
 use crate::program::{Files, Outputs, plan, profile, side};
 use crate::request::{One, Seek, Simulate};
@@ -166,7 +166,7 @@ pub(crate) fn simulate(
     let is_sound = is_same && !all.iter().any(|done| done.cut.has_sure_alarms());
     let done = all.swap_remove(0).cut;
     let mut outputs = vec![("document", document), ("path", path), ("modes", modes)];
-    outputs.extend(part(done.simulation.map()));
+    outputs.extend(part(&done));
     *kept = Some(Box::new(done));
     Ok((if is_sound { Exit::Done } else { Exit::Refused }, outputs))
 }
@@ -213,17 +213,36 @@ fn held_against(
 }
 
 /// A part as numbers: heights in mm, and the number of the move that cut last, of each cell; little-endian.
-fn part(map: &HeightMap) -> Outputs {
+///
+/// Of a part with hollows, too: `hollows`, sixteen bytes each: the cell, 0, the lower and the upper end; `covered`, one byte a
+/// cell, 1 where `faces` have the surface; `faces`, sixteen bytes each: the cell, the side and 256 times the length, from and to
+/// which height.
+fn part(cut: &CutProgram) -> Outputs {
+    let map = cut.simulation.map();
     let heights = map.heights.iter().flat_map(|height| height.to_le_bytes()).collect();
     let last = map.last.iter().flat_map(|number| number.to_le_bytes()).collect();
-    vec![("heights", heights), ("last", last)]
+    let mut outputs = vec![("heights", heights), ("last", last)];
+    let covered = covered(map);
+    if !covered.is_empty() {
+        let all = map.hollows.iter().flat_map(|(cell, own)| own.iter().map(move |ends| (cell as u32, *ends)));
+        outputs.push(("hollows", all.flat_map(|(cell, ends)| words([cell, 0], ends)).collect()));
+        let of =
+            |face: &Face| words([face.cell, u32::from(face.length) << 8 | face.side as u32], face.between);
+        outputs.push(("faces", faces(map, &covered, parts::floor(cut)).iter().flat_map(of).collect()));
+        outputs.push(("covered", covered.into_iter().map(u8::from).collect()));
+    }
+    outputs
+}
+
+fn words([a, b]: [u32; 2], [low, high]: [f32; 2]) -> impl Iterator<Item = u8> {
+    [a, b, low.to_bits(), high.to_bits()].into_iter().flat_map(u32::to_le_bytes)
 }
 
 /// Shows the part after so many moves.
 pub(crate) fn seek(asked: Seek, kept: &mut Kept) -> Result<(Exit, Outputs), Problem> {
     let cut = kept.as_mut().ok_or(RequestFault::NothingCut)?;
     cut.simulation.seek(asked.moves);
-    Ok((Exit::Done, part(cut.simulation.map())))
+    Ok((Exit::Done, part(cut)))
 }
 
 /// The part that is shown, as a body of triangles.

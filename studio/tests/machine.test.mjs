@@ -35,8 +35,8 @@ M30
 `;
 
 /** Opens the slot in its block. */
-async function slot(own) {
-  await type(own, SLOT);
+async function slot(own, program = SLOT) {
+  await type(own, program);
   await own.click("#tab-setup");
   await own.getByLabel("Raw part", { exact: true }).selectOption("block");
   await own.waitForTimeout(200);
@@ -89,6 +89,50 @@ both("a section is filled, has the area of the cut face, and moves by slider, nu
   await own.keyboard.press("z");
   assert.ok(!(await own.isVisible("#section-card")));
   assert.ok((await pixels(own, "#canvas", inks)).face < filled / 3);
+});
+
+/** As `SLOT`, 12 mm deep and 8 mm wide, and a T-slot cutter along its bottom. */
+const UNDERCUT = `%
+O0202 (UNDERCUT)
+(T1 D=8. CR=0. - FLAT END MILL)
+(T2 D=16. CR=0. - T-SLOT MILL)
+G21 G17 G90 G94 G40 G49 G80
+T1 M6
+G54 G0 X-50. Y0. S3000 M3
+G43 H1 Z20.
+Z-12.
+G1 X50. F500.
+G0 Z20.
+T2 M6
+G0 X-60. Y0. S2000 M3
+G43 H2 Z20.
+Z-12.
+G1 X60. F150.
+G0 Z20.
+M5
+M30
+%
+`;
+
+both("an undercut is seen from the side, in a section, in its area and under the pointer", {}, async (own) => {
+  await slot(own, UNDERCUT);
+  await own.click("#to-end");
+  await ready(own);
+  for (const kind of [0, 1]) await own.click(`#kind-${kind}`);
+  // The block from its right end: through the slot and what the disc took one sees nothing behind.
+  await own.click('[data-side="right"]');
+  const part = { raw: "--part-raw", cut: "--part-cut" };
+  const solid = async () => Object.values(await pixels(own, "#canvas", part)).reduce((sum, one) => sum + one);
+  const faces = Number(await data(own, "faces"));
+  assert.ok(faces > 10 && faces < 5_000, String(faces));
+  const after = await solid();
+  await own.click("#section-toggle");
+  await own.getByRole("button", { name: "Section across X" }).click();
+  const area = async () => Number(await data(own, "section"));
+  // 40 × 20 mm less a slot of 8 × 12 mm and twice 4 mm beside it, as high as the disc is thick.
+  const thick = Number(await data(own, "tool").then((tool) => JSON.parse(tool)[1]));
+  assert.ok(Math.abs((await area()) - (800 - 96 - 8 * thick)) < 4, `${await area()}, disc of ${thick}`);
+  assert.ok(after > 0);
 });
 
 both("places on the part are measured: edges and cells by clicks, numbers, and where the tool is", {}, async (own) => {

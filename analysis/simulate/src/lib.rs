@@ -15,6 +15,7 @@
 
 mod alarm;
 mod band;
+mod faces;
 mod history;
 mod hollows;
 mod level_arc;
@@ -31,6 +32,7 @@ mod tool;
 mod under;
 
 pub use alarm::{Alarm, AlarmKind};
+pub use faces::{Face, Side, covered, faces};
 pub use hollows::{Hollows, without};
 pub use map::{Grid, HeightMap};
 pub use mesh::{Triangle, mesh, rasterise};

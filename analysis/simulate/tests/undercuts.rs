@@ -1,6 +1,8 @@
 //! Tools on a thinner neck, which cut under what stays.
 
-use ncc_simulate::{AlarmKind, Cutter, Move, Setup, Shape, Simulation, Stock, Tool, Triangle, Way, mesh};
+use ncc_simulate::{
+    AlarmKind, Cutter, Move, Setup, Shape, Side, Simulation, Stock, Tool, Triangle, Way, covered, faces, mesh,
+};
 
 /// Most that a height may be off at the centre of a cell, mm.
 const MICRON: f32 = 0.001;
@@ -155,4 +157,44 @@ fn a_body_with_hollows_is_closed() {
             "{volume}, not {expected}"
         );
     }
+}
+
+#[test]
+fn faces_around_hollows_close_the_part() {
+    let mut done = slotted(tool(&Shape::TSlot, 16.0, 5.0, Some(7.0)), 20);
+    assert!(covered(done.map()).is_empty(), "no hollow yet");
+    done.push(go(Way::Feed, [20.0, 12.0, -12.0]));
+    let map = done.map();
+    let covered = covered(map);
+    let few = covered.iter().filter(|own| !**own).count();
+    // Hollows from X 12 to X 28, cells of 2 mm: two columns on each side are further away than four cells.
+    assert_eq!(few, 4 * map.grid.cells[1]);
+    let all = faces(map, &vec![true; map.grid.len()], -20.0);
+
+    // The volume by the divergence theorem, along each axis.
+    let (mut along, mut long) = ([0.0; 3], 0);
+    let area = map.grid.cell * map.grid.cell;
+    for face in &all {
+        let cell = face.cell as usize;
+        let place = |axis: usize, n: usize| map.grid.centre(axis, n);
+        let [column, row] = [cell % map.grid.cells[0], cell / map.grid.cells[0]];
+        let [low, high] = face.between.map(f64::from);
+        let length = f64::from(face.length);
+        long += usize::from(face.length > 1);
+        let wall = length * map.grid.cell * (high - low);
+        let half = map.grid.cell / 2.0;
+        match face.side {
+            Side::Up => along[2] += length * area * (high + 20.0),
+            Side::Down => along[2] -= length * area * (low + 20.0),
+            Side::Right => along[0] += wall * (place(0, column) + half),
+            Side::Left => along[0] -= wall * (place(0, column) - half),
+            Side::Back => along[1] += wall * (place(1, row) + half),
+            Side::Front => along[1] -= wall * (place(1, row) - half),
+        }
+    }
+    let volume = map.volume_above(-20.0);
+    for own in along {
+        assert!((own - volume).abs() < 1e-6 * volume, "{own} {volume}");
+    }
+    assert!(long > all.len() / 2, "{long} of {} are long", all.len());
 }

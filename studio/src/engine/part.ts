@@ -72,6 +72,66 @@ export interface Cut {
 export interface Heights {
   heights: Float32Array;
   last: Uint32Array;
+  hollows: Hollows;
+  /** Of each cell 1 where `faces` have the surface; empty of a part without hollows. */
+  covered: Uint8Array;
+  /** Four words each: the cell, the side (up, down, front, right, back, left) and 256 times the length, from and to which height. */
+  faces: Uint32Array;
+}
+
+/** Spaces without material under the upper surface, cell by cell, the lowest first. */
+export class Hollows {
+  private readonly ends: Float32Array;
+
+  /** Four words each: the cell, 0, the lower and the upper end. */
+  constructor(private readonly words: Uint32Array) {
+    this.ends = new Float32Array(words.buffer);
+  }
+
+  get count(): number {
+    return this.words.length / 4;
+  }
+
+  cell(n: number): number {
+    return this.words[4 * n] as number;
+  }
+
+  /** mm */
+  low(n: number): number {
+    return this.ends[4 * n + 2] as number;
+  }
+
+  /** mm */
+  high(n: number): number {
+    return this.ends[4 * n + 3] as number;
+  }
+
+  /** Those of a cell: the first, and behind the last. */
+  of(cell: number): [number, number] {
+    let [first, behind] = [0, this.count];
+    while (first < behind) {
+      const middle = (first + behind) >> 1;
+      if (this.cell(middle) < cell) first = middle + 1;
+      else behind = middle;
+    }
+    while (behind < this.count && this.cell(behind) === cell) behind += 1;
+    return [first, behind];
+  }
+
+  /** Whether a place of a cell is in one. */
+  has(cell: number, height: number): boolean {
+    const [first, behind] = this.of(cell);
+    for (let n = first; n < behind; n += 1) if (height > this.low(n) && height < this.high(n)) return true;
+    return false;
+  }
+
+  /** mm of them in a cell above a level. */
+  above(cell: number, level: number): number {
+    const [first, behind] = this.of(cell);
+    let sum = 0;
+    for (let n = first; n < behind; n += 1) sum += Math.max(0, this.high(n) - Math.max(level, this.low(n)));
+    return sum;
+  }
 }
 
 /** What lies between the parts of two programs, in the document of `simulate`. */
@@ -97,7 +157,14 @@ export function readCut(answer: Answer): Cut | undefined {
 export function readHeights(answer: Answer): Heights | undefined {
   const [heights, last] = [answer.bytes("heights"), answer.bytes("last")];
   if (!heights || !last) return undefined;
-  return { heights: new Float32Array(aligned(heights)), last: new Uint32Array(aligned(last)) };
+  const words = (name: string) => new Uint32Array(aligned(answer.bytes(name) ?? new Uint8Array()));
+  return {
+    heights: new Float32Array(aligned(heights)),
+    last: new Uint32Array(aligned(last)),
+    hollows: new Hollows(words("hollows")),
+    covered: answer.bytes("covered") ?? new Uint8Array(),
+    faces: words("faces"),
+  };
 }
 
 /** The bytes in a buffer of their own. */

@@ -89,6 +89,7 @@ export class MachinePane {
     let cut = 0;
     for (const move of part.last) cut += Number(move > 0);
     byId("canvas").dataset.cut = String(cut);
+    byId("canvas").dataset.faces = String(part.faces.length / 4);
     byId("canvas").dataset.shown = String(Number(byId("canvas").dataset.shown ?? 0) + 1);
   }
 

@@ -64,7 +64,7 @@ export function meet(eye: Eye, pixel: [number, number], { raw }: Cut, part: Heig
     const row = Math.min(along - 1, Math.max(0, Math.floor((at[1] - low[1]) / raw.cell)));
     const cell = row * across + column;
     const height = part.heights[cell] as number;
-    if (at[2] > height && !(steps === 1 && height > low[2])) continue;
+    if ((at[2] > height || part.hollows.has(cell, at[2])) && !(steps === 1 && height > low[2])) continue;
     const top: Point = steps === 1 ? [at[0], at[1], height] : at;
     return { at: top, cell };
   }
@@ -93,7 +93,10 @@ export function snap(eye: Eye, pixel: [number, number], cut: Cut, part: Heights,
   const edge = nearest(edges(cut, part, met.cell));
   if (edge) return { at: edge, kind: "edge" };
   const [x, y] = centre(cut, met.cell);
-  return { at: [x, y, part.heights[met.cell] as number], kind: "cell" };
+  const height = part.heights[met.cell] as number;
+  // In a hollow the place itself is meant.
+  const under = part.hollows.of(met.cell);
+  return { at: [x, y, under[0] < under[1] && met.at[2] < height ? met.at[2] : height], kind: "cell" };
 }
 
 function centre({ raw }: Cut, cell: number): [number, number] {

@@ -12,6 +12,7 @@ import {
   type IUniform,
 } from "three";
 import type { Cut, Heights } from "../engine/part";
+import { HOLLOWS } from "./hollows";
 import { MAP } from "./stock";
 
 export type Axis = 0 | 1 | 2;
@@ -55,14 +56,17 @@ precision highp int;
 precision highp sampler2D;
 uniform sampler2D heights;
 ${MAP}
+${HOLLOWS}
 uniform vec3 face;
 uniform vec3 hatch;
 in vec3 place;
 out vec4 ink;
 
-/** Height of the grid that is drawn; far below where there is nothing. */
-float surface(vec2 at) {
+/** Height of what is drawn; far below where there is nothing, as in a hollow at a height. */
+float surface(vec2 at, float height) {
   vec2 grid = clamp((at - low) / cell - 0.5, vec2(0.0), vec2(cells - 1));
+  ivec2 own = ivec2(grid + 0.5);
+  if (isCovered(own)) return isHollow(own, height) ? -1e30 : texelFetch(heights, own, 0).r;
   ivec2 point = clamp(ivec2(grid / float(stride)), ivec2(0), max(points - 2, ivec2(0)));
   ivec2 first = min(point * stride, cells - 1);
   ivec2 second = min((point + 1) * stride, cells - 1);
@@ -80,7 +84,7 @@ float surface(vec2 at) {
 }
 
 void main() {
-  if (surface(place.xy) < place.z) discard;
+  if (surface(place.xy, place.z) < place.z) discard;
   bool line = mod(gl_FragCoord.x + gl_FragCoord.y, 9.0) < 1.2;
   ink = vec4(line ? hatch : face, 1.0);
 }
@@ -132,18 +136,22 @@ export function planeOf(section: Section | undefined): Vector4 {
 }
 
 /** Area of the cut face, mm²: of cells in a row, or of those that reach the plane. */
-export function areaOf({ axis, at }: Section, { raw }: Cut, { heights }: Heights): number {
+export function areaOf({ axis, at }: Section, { raw }: Cut, { heights, hollows }: Heights): number {
   const [across, along] = raw.cells;
   const floor = raw.low[2];
   let sum = 0;
   if (axis === 2) {
     if (at < floor) return 0;
     for (let cell = 0; cell < heights.length; cell += 1) sum += Number((heights[cell] as number) >= at);
+    for (let n = 0; n < hollows.count; n += 1) sum -= Number(hollows.low(n) < at && hollows.high(n) > at);
     return sum * raw.cell * raw.cell;
   }
   const line = Math.floor((at - raw.low[axis]) / raw.cell);
   if (line < 0 || line >= (axis === 0 ? across : along)) return 0;
   const [first, step, count] = axis === 0 ? [line, across, along] : [line * across, 1, across];
-  for (let n = 0; n < count; n += 1) sum += Math.max(0, (heights[first + n * step] as number) - floor);
+  for (let n = 0; n < count; n += 1) {
+    const cell = first + n * step;
+    sum += Math.max(0, (heights[cell] as number) - floor) - hollows.above(cell, floor);
+  }
   return sum * raw.cell;
 }

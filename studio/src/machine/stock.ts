@@ -21,6 +21,7 @@ import {
   type IUniform,
 } from "three";
 import type { Cut, Heights } from "../engine/part";
+import { Faces, HOLLOWS } from "./hollows";
 import { SCALE } from "./shaders";
 
 /** Where the cells are, and how the grid that is drawn lies on them. */
@@ -97,6 +98,14 @@ uniform vec4 section;
 /** Metalness, roughness, brightness of the light; cells between two lines of a wireframe, 0 for none. */
 uniform vec4 look;
 ${SCALE}
+${HOLLOWS}
+#ifdef FACES
+uniform sampler2D heights;
+${MAP}
+float heightAt(ivec2 own) {
+  return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
+}
+#endif
 in vec3 place;
 in vec2 at;
 in vec3 face;
@@ -111,9 +120,21 @@ void main() {
     vec2 off = abs(fract(net + 0.5) - 0.5) / max(fwidth(net), vec2(1e-5));
     if (min(off.x, off.y) > 0.7) discard;
   }
-  vec3 normal = normalize(border > 0.001 ? cross(dFdx(place), dFdy(place)) : face);
-  if (dot(normal, eye) < 0.0) normal = -normal;
   ivec2 own_cell = ivec2(at + 0.5);
+#ifdef FACES
+  vec3 looks = face;
+  if (place.z > heightAt(own_cell) - 0.001) {
+    // As the grid has it.
+    float x = heightAt(own_cell - ivec2(2, 0)) - heightAt(own_cell + ivec2(2, 0));
+    float y = heightAt(own_cell - ivec2(0, 2)) - heightAt(own_cell + ivec2(0, 2));
+    looks = vec3(x, y, 4.0 * cell);
+  }
+#else
+  if (isCovered(own_cell)) discard;
+  vec3 looks = face;
+#endif
+  vec3 normal = normalize(border > 0.001 ? cross(dFdx(place), dFdy(place)) : looks);
+  if (dot(normal, eye) < 0.0) normal = -normal;
   uint move = texelFetch(last, own_cell, 0).r;
   float touched = move > 0u ? 1.0 : 0.0;
   vec3 own = mix(raw, cut, touched);
@@ -139,15 +160,20 @@ void main() {
 const PICK = /* glsl */ `
 precision highp float;
 precision highp int;
+precision highp sampler2D;
 precision highp usampler2D;
 uniform usampler2D last;
 uniform vec4 section;
+${HOLLOWS}
 in vec3 place;
 in vec2 at;
 flat in int isGone;
 out vec4 ink;
 void main() {
   if (isGone == 1 || dot(section.xyz, place) > section.w) discard;
+#ifndef FACES
+  if (isCovered(ivec2(at + 0.5))) discard;
+#endif
   int id = int(texelFetch(last, ivec2(at + 0.5), 0).r);
   ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 128.0) / 255.0;
 }
@@ -189,6 +215,8 @@ export class StockView {
     sun: { value: [-0.33, -0.52, 0.79] },
     eye: { value: [0, 0, 1] },
   };
+  /** The part around its hollows. */
+  readonly faces = new Faces(this.uniforms, MAP, FRAGMENT, PICK);
   private cells: [number, number] = [0, 0];
 
   constructor() {
@@ -217,6 +245,7 @@ export class StockView {
   /** Another part, or none. */
   open(cut: Cut | undefined): void {
     this.drawn.visible = this.pick.visible = cut !== undefined;
+    this.faces.setVisible(false);
     if (!cut) return;
     const { cells, cell, low } = cut.raw;
     this.uniforms.cells!.value.set(...cells);
@@ -275,6 +304,8 @@ export class StockView {
       (texture.image as { data: unknown }).data = own;
       texture.needsUpdate = true;
     }
+    this.faces.show(part, this.cells);
+    this.faces.setVisible(this.drawn.visible);
   }
 
   /** A number for each cell, 0 to 255: of a colour, or a place on the scale. */
@@ -287,6 +318,7 @@ export class StockView {
 
   setVisible(on: boolean): void {
     this.drawn.visible = this.pick.visible = on && this.cells[0] > 0;
+    this.faces.setVisible(this.drawn.visible);
   }
 
   setMarked(first: number, last: number): void {

@@ -99,8 +99,8 @@ export class MachineView {
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-    this.scene.add(this.surroundings, this.bench, this.stock.drawn, this.face.drawn, this.paths.drawn, this.measured, this.tool, lights());
-    this.pickScene.add(this.stock.pick, this.paths.pick);
+    this.scene.add(this.surroundings, this.bench, this.stock.drawn, this.stock.faces.drawn, this.face.drawn, this.paths.drawn, this.measured, this.tool, lights());
+    this.pickScene.add(this.stock.pick, this.stock.faces.pick, this.paths.pick);
     this.pickScene.background = new Color(0);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -369,7 +369,7 @@ export class MachineView {
 
   /** The plan: moves from above, and the frame of the raw part. */
   private renderPlan(): void {
-    const hidden = [this.stock.drawn, this.face.drawn, this.surroundings].filter((one) => one.visible);
+    const hidden = [this.stock.drawn, this.stock.faces.drawn, this.face.drawn, this.surroundings].filter((one) => one.visible);
     hidden.forEach((one) => (one.visible = false));
     this.frame.visible = true;
     const [width, height] = this.plan.prepare();
@@ -391,6 +391,7 @@ export class MachineView {
     this.renderer.setRenderTarget(this.target);
     const solid = camera === this.camera && this.stock.drawn.visible;
     this.stock.pick.visible = solid;
+    this.stock.faces.pick.visible = solid && this.stock.faces.some;
     this.renderer.render(this.pickScene, camera);
     const pixels = new Uint8Array(REACH * REACH * 4);
     this.renderer.readRenderTargetPixels(this.target, 0, 0, REACH, REACH, pixels);
