@@ -116,63 +116,154 @@ fn plan(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -
 /// cos 30°: along the axes of an isometric picture.
 const COS: f64 = 0.866_025_403_784_438_6;
 
+/// The isometric picture of a map: X goes to the right and up, Y to the left and up, Z up.
+struct Isometric {
+    /// Sides of the map, mm.
+    sides: [f64; 2],
+    /// Pixels a mm.
+    scale: f64,
+    width: usize,
+    height: usize,
+}
+
+/// A place of the map behind a column of pixels.
+struct Place {
+    column: usize,
+    row: usize,
+    /// How far up its ground is drawn, in the picture's mm.
+    ground: f64,
+}
+
+impl Isometric {
+    fn of(map: &HeightMap, level: f32, most: usize) -> Isometric {
+        let [long, deep] = map.grid.cells.map(|cells| cells as f64 * map.grid.cell);
+        let thick = f64::from(map.highest().max(level)) - f64::from(level);
+        let across = (long + deep) * COS;
+        let up = (long + deep) * 0.5 + thick;
+        let scale = most.max(1) as f64 / across.max(up).max(1e-9);
+        let [width, height] = [across, up].map(|side| ((side * scale).ceil() as usize).max(1));
+        Isometric { sides: [long, deep], scale, width, height }
+    }
+
+    /// Behind a column of pixels lies a line of the part along which X and Y grow by the same: X less Y on it.
+    fn line(&self, column: usize) -> f64 {
+        (column as f64 + 0.5) / self.scale / COS - self.sides[1]
+    }
+
+    /// The places on that line, from the front to the back, two a cell.
+    fn places(&self, map: &HeightMap, u: f64) -> impl Iterator<Item = Place> {
+        let ([long, deep], cell, cells) = (self.sides, map.grid.cell, map.grid.cells);
+        let (begin, end) = (u.max(0.0), long.min(u + deep));
+        let steps = ((end - begin) / (0.5 * cell)).ceil().max(0.0) as usize;
+        (0..=steps).map(move |step| {
+            let x = (begin + (end - begin) * step as f64 / steps.max(1) as f64).min(long - 1e-9);
+            let y = (x - u).clamp(0.0, deep - 1e-9);
+            let [column, row] = [x, y].map(|at| (at / cell) as usize);
+            Place { column: column.min(cells[0] - 1), row: row.min(cells[1] - 1), ground: (x + y) * 0.5 }
+        })
+    }
+
+    /// The rows of pixels, from below, between two heights of the picture in mm.
+    fn lines(&self, from: f64, to: f64) -> std::ops::Range<usize> {
+        let [low, high] = [from, to].map(|at| ((at * self.scale).round().max(0.0) as usize).min(self.height));
+        low..high
+    }
+
+    fn put(&self, pixels: &mut [u8], column: usize, line: usize, pixel: [u8; 4]) {
+        let at = 4 * ((self.height - 1 - line) * self.width + column);
+        pixels[at..at + 4].copy_from_slice(&pixel);
+    }
+}
+
+/// The light on walls that look to less X, which are seen on the left, and on those that look to less Y.
+const WALLS: [f64; 2] = [0.45, 0.6];
+
 /// Draws the isometric picture, one column of pixels after the other, from the front to the back. A nearer cell hides those
 /// behind it.
 fn corner(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -> Picture {
-    let [columns, rows] = map.grid.cells;
-    let cell = map.grid.cell;
-    let [long, deep] = [columns as f64 * cell, rows as f64 * cell];
-    let top = f64::from(map.highest().max(level));
-    let thick = top - f64::from(level);
-    // X goes to the right and up, Y to the left and up, Z up.
-    let across = (long + deep) * COS;
-    let up = (long + deep) * 0.5 + thick;
-    let scale = most.max(1) as f64 / across.max(up).max(1e-9);
-    let [width, height] = [across, up].map(|side| ((side * scale).ceil() as usize).max(1));
-    let mut pixels = vec![0_u8; 4 * width * height];
-    for column in 0..width {
-        // Behind this column of pixels lies a line of the part along which X and Y grow by the same.
-        let u = (column as f64 + 0.5) / scale / COS - deep;
-        // u = x - y
-        let begin = u.max(0.0);
-        let end = long.min(u + deep);
-        let mut drawn = 0.0_f64;
-        let steps = ((end - begin) / (0.5 * cell)).ceil().max(0.0) as usize;
-        let mut first = true;
-        for step in 0..=steps {
-            let x = (begin + (end - begin) * step as f64 / steps.max(1) as f64).min(long - 1e-9);
-            let y = (x - u).clamp(0.0, deep - 1e-9);
-            let [i, j] = [((x / cell) as usize).min(columns - 1), ((y / cell) as usize).min(rows - 1)];
-            let own = j * columns + i;
-            let stands = f64::from(map.heights[own].max(level)) - f64::from(level);
-            let ground = (x + y) * 0.5;
-            let seen = (ground + stands) * scale;
-            let slope = rise(map, level, i, j);
-            // The first cell shows a wall of the part down to the level.
-            let wall = first || seen - drawn > 3.0 && slope[0] + slope[1] > 2.0;
-            let from = if first { ground * scale } else { drawn };
-            first = false;
-            if stands > 0.0 && seen > from {
-                let by = match wall && step == 0 {
-                    // On the left is the front, on the right the right side.
-                    true => {
-                        if u < 0.0 {
-                            0.45
-                        } else {
-                            0.6
-                        }
-                    }
-                    false => light(slope),
-                };
-                let pixel = shaded(colour(map, own, tool), by);
-                let [low, high] = [from, seen].map(|at| (at.round().max(0.0) as usize).min(height));
-                for line in low..high {
-                    let at = 4 * ((height - 1 - line) * width + column);
-                    pixels[at..at + 4].copy_from_slice(&pixel);
-                }
-            }
-            drawn = drawn.max(seen).max(from);
+    let view = Isometric::of(map, level, most);
+    let mut pixels = vec![0_u8; 4 * view.width * view.height];
+    for column in 0..view.width {
+        match map.hollows.is_empty() {
+            true => surface_behind(map, level, &view, column, tool, &mut pixels),
+            false => material_behind(map, level, &view, column, tool, &mut pixels),
         }
     }
-    Picture { width, height, pixels }
+    Picture { width: view.width, height: view.height, pixels }
+}
+
+/// Draws the upper surface behind a column of pixels.
+fn surface_behind(
+    map: &HeightMap,
+    level: f32,
+    view: &Isometric,
+    column: usize,
+    tool: &dyn Fn(u32) -> usize,
+    pixels: &mut [u8],
+) {
+    let u = view.line(column);
+    let mut drawn = 0.0_f64;
+    for (step, Place { column: i, row: j, ground }) in view.places(map, u).enumerate() {
+        let own = j * map.grid.cells[0] + i;
+        let stands = f64::from(map.heights[own].max(level)) - f64::from(level);
+        let seen = ground + stands;
+        // The first cell shows a wall of the part down to the level.
+        let from = if step == 0 { ground } else { drawn };
+        if stands > 0.0 && seen > from {
+            let by = match step {
+                0 => WALLS[usize::from(u >= 0.0)],
+                _ => light(rise(map, level, i, j)),
+            };
+            let pixel = shaded(colour(map, own, tool), by);
+            view.lines(from, seen).for_each(|line| view.put(pixels, column, line, pixel));
+        }
+        drawn = drawn.max(seen).max(from);
+    }
+}
+
+/// Draws the material behind a column of pixels where there are hollows: each piece of it hides what is behind it, and no more.
+fn material_behind(
+    map: &HeightMap,
+    level: f32,
+    view: &Isometric,
+    column: usize,
+    tool: &dyn Fn(u32) -> usize,
+    pixels: &mut [u8],
+) {
+    let mut hidden = vec![false; view.height];
+    let (mut last, mut material) = (None, Vec::new());
+    for Place { column: i, row: j, ground } in view.places(map, view.line(column)) {
+        let own = j * map.grid.cells[0] + i;
+        let is_new = last.replace(own) != Some(own);
+        if is_new {
+            material = map.material(own, level);
+        }
+        let colour = colour(map, own, tool);
+        for (n, [low, high]) in material.iter().enumerate() {
+            let [low, high] = [low, high].map(|at| ground + f64::from(at - level));
+            let is_upper = n + 1 == material.len();
+            for line in view.lines(low, high) {
+                if std::mem::replace(&mut hidden[line], true) {
+                    continue;
+                }
+                // Behind its front a cell shows its top, and where it begins in the uppermost row of pixels.
+                let is_top = !is_new || line + 1 == view.lines(low, high).end;
+                let by = match (is_top, is_upper) {
+                    (true, true) => light(rise(map, level, i, j)),
+                    (true, false) => light([0.0; 2]),
+                    (false, _) => {
+                        let height = f64::from(level) + (line as f64 + 0.5) / view.scale - ground;
+                        WALLS[usize::from(i > 0 && is_solid(map, own - 1, height as f32))]
+                    }
+                };
+                view.put(pixels, column, line, shaded(colour, by));
+            }
+        }
+    }
+}
+
+/// Whether a cell has material at a height.
+fn is_solid(map: &HeightMap, cell: usize, height: f32) -> bool {
+    let is_within = |[low, high]: &[f32; 2]| *low < height && height < *high;
+    height < map.heights[cell] && !map.hollows.of(cell).iter().any(is_within)
 }

@@ -1,7 +1,8 @@
 //! Tools on a thinner neck, which cut under what stays.
 
 use ncc_simulate::{
-    AlarmKind, Cutter, Move, Setup, Shape, Side, Simulation, Stock, Tool, Triangle, Way, covered, faces, mesh,
+    AlarmKind, Cutter, Hollows, Look, Move, Picture, Setup, Shape, Side, Simulation, Stock, Tool, Triangle,
+    Way, covered, draw, faces, mesh,
 };
 
 /// Most that a height may be off at the centre of a cell, mm.
@@ -197,4 +198,32 @@ fn faces_around_hollows_close_the_part() {
         assert!((own - volume).abs() < 1e-6 * volume, "{own} {volume}");
     }
     assert!(long > all.len() / 2, "{long} of {} are long", all.len());
+}
+
+#[test]
+fn a_picture_from_the_corner_looks_into_hollows() {
+    let mut done = slotted(tool(&Shape::TSlot, 16.0, 5.0, Some(7.0)), 400);
+    done.push(go(Way::Feed, [20.0, -20.0, -12.0]));
+    let open = done.map().clone();
+    let mut closed = open.clone();
+    closed.hollows = Hollows::default();
+    let [open, closed] = [&open, &closed].map(|map| draw(map, -20.0, Look::Corner, 800, &|_| 0));
+    // Along X to the right and up, along Z up: the front of the block, X 0 to 40 and Z -20 to 0.
+    let scale = 800.0 / (70.0 * 0.75_f64.sqrt());
+    let at = |picture: &Picture, x: f64, z: f64| {
+        let column = ((x + 30.0) * 0.75_f64.sqrt() * scale) as usize;
+        let line = picture.height - ((x / 2.0 + z + 20.0) * scale) as usize;
+        let first = 4 * (line * picture.width + column);
+        picture.pixels[first..first + 4].to_vec()
+    };
+    // The neck's side, the disc's on both sides, what is below it, and beside it.
+    for (x, z, is_hollow) in [
+        (14.0, -9.0, true),
+        (26.0, -9.5, true),
+        (14.0, -5.0, false),
+        (14.0, -15.0, false),
+        (5.0, -9.0, false),
+    ] {
+        assert_eq!(at(&open, x, z) != at(&closed, x, z), is_hollow, "X{x} Z{z}");
+    }
 }
