@@ -18,6 +18,7 @@ fn simulation(shape: &Shape, cells: f64) -> Simulation {
         fixtures: Vec::new(),
         table: None,
         start: [0.0, 0.0, 5.0],
+        tilts: Vec::new(),
     })
 }
 
@@ -32,7 +33,7 @@ fn moves(by: f64) -> Vec<Move> {
                 (sense, y) = (-sense, y + 0.8);
             }
             let end = [x, y, -4.0 + rng.f64() * by];
-            Move { way: Way::Feed, end, tool: 0, turns: true, time: 0.0, line: 0 }
+            Move { way: Way::Feed, end, tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 }
         })
         .collect()
 }
@@ -72,7 +73,8 @@ fn flat_on_circles(bencher: Bencher, cells: f64) {
         |x: f64, y: f64| Way::Arc { plane: [0, 1, 2], centre: [x - 3.0, y], sweep: std::f64::consts::TAU };
     let circles = |n: usize| {
         let [x, y] = [10.0 + (n % 80) as f64, 10.0 + (n / 80) as f64];
-        let to = Move { way: Way::Feed, end: [x, y, -1.0], tool: 0, turns: true, time: 0.0, line: 0 };
+        let to =
+            Move { way: Way::Feed, end: [x, y, -1.0], tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 };
         [to, Move { way: way(x, y), ..to }]
     };
     let moves: Vec<Move> = (0..1_000).flat_map(circles).collect();

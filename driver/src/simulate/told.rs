@@ -196,6 +196,7 @@ pub fn write_refusal(
     let message = match why {
         Unsimulated::Rotary => Message::new(NOT_SIMULATED),
         Unsimulated::Tilted => Message::new(NOT_SIMULATED).form("tilted"),
+        Unsimulated::Unplaced => Message::new(NOT_SIMULATED).form("unplaced"),
     };
     let mut lines = Lines::find(&mut source.file, vec![span.start])?;
     lines.own_numbers(source.called.as_ref());
