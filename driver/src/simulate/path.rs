@@ -344,7 +344,8 @@ impl Sink for Recorder<'_> {
         self.turns(event, said);
         let Some(movement) = event.kind.moves() else { return Ok(()) };
         let way = path(event, &act.from);
-        if way.change == [0.0; AXES] && way.sweep == 0.0 {
+        // As the numbers are, a tool may be there already of which only that says where it is.
+        if way.change == [0.0; AXES] && way.sweep == 0.0 && !self.planes.finds(&said.tip) {
             return Ok(());
         }
         let offset = *self.offset.get_or_insert(said.tip.offset);
@@ -410,7 +411,7 @@ pub(super) fn mm(nanos: Nanos) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::io::Cursor;
 
     use ncc_dialects::{Settings, builtin};
@@ -422,7 +423,7 @@ mod tests {
     use crate::time::drive::{Plan, Stage, Unwatched, drive};
 
     /// The path of blocks of a Fanuc behind the usual head.
-    fn path(tables: Tables, blocks: &str) -> Path {
+    pub(in crate::simulate) fn path(tables: Tables, blocks: &str) -> Path {
         let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
         let job = Job::new(settings.clone(), settings, "a.nc");
         let plan = Plan {
