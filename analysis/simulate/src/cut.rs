@@ -48,8 +48,8 @@ pub(crate) fn take(map: &mut HeightMap, cell: usize, between: [f32; 2], number: 
     if between[0] >= *top {
         return 0.0;
     }
-    let (new, taken) = map.hollows.take(cell, *top, between);
-    if taken > 0.0 {
+    let (new, taken) = map.hollows.take(cell, *top, between, number);
+    if new < *top {
         (*top, map.last[cell]) = (new, number);
     }
     taken

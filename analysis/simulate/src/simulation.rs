@@ -218,6 +218,7 @@ impl Simulation {
     }
 
     /// The same with a tool that leans.
+    #[cold]
     fn cut_leaning(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
         let path = Path { from, own, axes: &self.setup.tilts[usize::from(own.tilt) - 1] };
         let (grid, between) = (self.map.grid, [self.floor, f64::from(self.highest)]);
@@ -236,6 +237,7 @@ impl Simulation {
     }
 
     /// As [`Simulation::look`], of a tool that leans.
+    #[cold]
     fn look_leaning(&mut self, from: [f64; 3], own: &Move) {
         let path = Path { from, own, axes: &self.setup.tilts[usize::from(own.tilt) - 1] };
         let tool = &self.leaning[own.tool];
@@ -309,12 +311,17 @@ impl Simulation {
             let place = self.where_cut(number, cut).unwrap_or(own.end);
             self.alarm(kind, own, number, Hit { place, depth });
         }
+        let body = &self.bodies[own.tool];
+        if own.tilt == 0 && body.shank.is_none() && body.holder.is_none() {
+            return;
+        }
         for (kind, hit) in self.above_the_cut(from, own) {
             self.alarm(kind, own, number, hit);
         }
     }
 
     /// Where shank and holder are in what a move leaves; of a tool that leans, what is above its flutes, too.
+    #[cold]
     fn above_the_cut(&self, from: [f64; 3], own: &Move) -> Vec<(AlarmKind, Hit)> {
         if own.tilt != 0 {
             let path = Path { from, own, axes: &self.setup.tilts[usize::from(own.tilt) - 1] };
@@ -333,8 +340,11 @@ impl Simulation {
     fn where_cut(&self, number: u32, cut: &Cut) -> Option<[f64; 3]> {
         let (grid, width) = (self.map.grid, self.map.grid.cells[0]);
         cut.rows.clone().find_map(|row| {
-            let column = cut.columns.clone().find(|column| self.map.last[row * width + column] == number)?;
-            let height = f64::from(self.map.heights[row * width + column]);
+            let last = |cell: usize| [self.map.last[cell], self.map.hollows.last(cell)];
+            let column = cut.columns.clone().find(|column| last(row * width + column).contains(&number))?;
+            let cell = row * width + column;
+            let under = self.map.hollows.of(cell).first().filter(|_| self.map.last[cell] != number);
+            let height = f64::from(under.map_or(self.map.heights[cell], |own| own[0]));
             Some([grid.centre(0, column), grid.centre(1, row), height])
         })
     }

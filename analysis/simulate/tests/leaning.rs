@@ -133,6 +133,31 @@ fn a_leaning_hole() {
     assert!(!done.map().hollows.is_empty());
 }
 
+/// Below the part there is nothing to take.
+#[test]
+fn a_hole_through_the_bottom() {
+    for angle in [20.0_f64, 70.0] {
+        let axes = plane(angle, 90.0);
+        let axis = axes.map(|row| row[2]);
+        let at = |along: f64| [0, 1, 2].map(|n: usize| [20.0, 20.0, -10.0][n] + along * axis[n]);
+        let done = cut(tool(&Shape::Ball, 2.0), axes, at(80.0), at(-60.0));
+        let long = if angle < 45.0 { 20.0 / axis[2] } else { 40.0 / axis[0] };
+        assert!((removed(&done) - PI * long).abs() < PI * long * 0.02, "{angle}°: {}", removed(&done));
+        assert!((removed(&done) - (32_000.0 - done.map().volume_above(-20.0))).abs() < 0.1);
+    }
+}
+
+/// The top of a part under which a tool has cut is as it was.
+#[test]
+fn what_is_above_a_bore_is_untouched() {
+    let done = cut(tool(&Shape::Flat, 8.0), plane(90.0, -90.0), [-5.0, 20.0, -9.0], [25.0, 20.0, -9.0]);
+    let map = done.map();
+    assert!(map.last.iter().all(|last| *last == 0));
+    assert!(
+        map.hollows.iter().count() > 1000 && map.hollows.iter().all(|(cell, _)| map.hollows.last(cell) == 1)
+    );
+}
+
 /// A ball that leans cuts as one that does not, as long as only the ball touches.
 #[test]
 fn a_ball_that_leans() {
@@ -277,7 +302,8 @@ fn what_is_cut_is_where_the_tool_was() {
             let mut place = || [rng.f64() * 40.0, rng.f64() * 40.0, -rng.f64() * 20.0];
             let (from, to) = (place(), place());
             let own = Tool { cutter: cutter(&shape), ..tool(&Shape::Flat, 8.0) };
-            let done = cut(own.clone(), axes, from, to);
+            let mut done = Simulation::new(Setup { cells: 60, ..setup(own.clone(), &[axes], from) });
+            done.push(go(Way::Feed, to, 1));
             let touches = |at: [f64; 3]| {
                 let tip = |t: f64| [0, 1, 2].map(|n: usize| from[n] + t * (to[n] - from[n]));
                 (0..=2000).any(|n| outside(&own.cutter, &axes, tip(f64::from(n) / 2000.0), at) < 0.0)
@@ -382,11 +408,11 @@ fn any_state_can_be_shown_again() {
     let mut rng = fastrand::Rng::with_seed(4);
     let planes = [plane(90.0, -90.0), plane(40.0, 100.0)];
     let own = tool(&Shape::Ball, 4.0);
-    let mut done = Simulation::new(Setup { cells: 40, ..setup(own, &planes, [20.0, 20.0, 30.0]) });
+    let mut done = Simulation::new(Setup { cells: 70, ..setup(own, &planes, [20.0, 20.0, 30.0]) });
     let mut states = Vec::new();
     for n in 1..=11_000 {
         let end = [rng.f64() * 40.0, rng.f64() * 40.0, -rng.f64() * 20.0 * (n as f64 / 20_000.0)];
-        done.push(go(if n % 2 == 0 { Way::Feed } else { Way::Away }, end, (n % 3) as u16));
+        done.push(go(if n % 8 == 0 { Way::Feed } else { Way::Away }, end, n as u16 / 8 % 2 + 1));
         if n % 500 == 0 {
             states.push((n, done.map().clone()));
         }

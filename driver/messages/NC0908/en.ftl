@@ -1,9 +1,9 @@
 NC0908 = not simulated: a cut with the part turned
     .label = a rotary axis moves here, or has turned the part
-    .help = turn the tool by a tilted plane (G68.2 and G53.1, CYCLE800), or split the program here
-NC0908-tilted = not simulated: a cut on a tilted plane with the tool not upright on it
-    .label = the program has not turned the tool along the normal of this plane
-    .help = turn the tool with the plane: `G53.1`, or the direction of CYCLE800
+    .help = turn the tool with a tilted plane (G68.2 and G53.1, CYCLE800), or split the program here
+NC0908-tilted = not simulated: the tool is not upright on the tilted plane
+    .label = neither G53.1 nor CYCLE800 has turned the tool here
+    .help = turn the tool with the plane: `G53.1`, or the direction in CYCLE800
 NC0908-unplaced = not simulated: a cut from an unknown position
     .label = X, Y or Z has not been stated since the plane changed
-    .help = state X, Y and Z as absolute coordinates after the plane changes
+    .help = state X, Y and Z in absolute coordinates after the plane changes

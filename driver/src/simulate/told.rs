@@ -282,6 +282,9 @@ pub fn assumptions(path: &Path, tables: &Tables, course: &Course) -> Vec<String>
     if path.has_unknown_heights {
         lines.push(words("heights").headline());
     }
+    if !path.tilts.is_empty() {
+        lines.push(words("after-planes").headline());
+    }
     let unstated = path.offsets.iter().filter(|offset| !tables.work_offsets.contains_key(offset));
     let names: Vec<_> = unstated.map(ToString::to_string).collect();
     if names.len() > 1 {
@@ -335,6 +338,11 @@ pub fn write_account(
         (words("raw").headline(), raw_headline(cut)),
         (words("time").headline(), duration::hms(cut.path.end)),
     ];
+    let tilts = setup.tilts.len() as u64;
+    if tilts > 0 {
+        let text = words("planes-tilted").count("planes", tilts).headline();
+        rows.push((words("planes").headline(), text));
+    }
     rows.extend(tool_rows(cut));
     let all = setup.stock.volume(setup.cells);
     let removed = words("of-raw").text("volume", decimal(cut.volume())).text("all", decimal(all));
