@@ -84,6 +84,24 @@ fn flat_on_circles(bencher: Bencher, cells: f64) {
         .bench_refs(|simulation| moves.iter().for_each(|own| simulation.push(*own)));
 }
 
+/// A tool that leans by 30° along the rows, by its shape.
+#[divan::bench(sample_count = 3, sample_size = 1, args = ["flat", "ball", "bull nose"])]
+fn leaning(bencher: Bencher, shape: &str) {
+    let shape = match shape {
+        "flat" => Shape::Flat,
+        "ball" => Shape::Ball,
+        _ => Shape::BullNose { corner: 0.2 },
+    };
+    let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+    let axes = [[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]];
+    let moves: Vec<Move> = moves(0.1).into_iter().take(2_000).map(|own| Move { tilt: 1, ..own }).collect();
+    let setup = simulation(&shape, 10.0).setup().clone();
+    bencher
+        .counter(ItemsCount::new(moves.len()))
+        .with_inputs(|| Simulation::new(Setup { tilts: vec![axes], ..setup.clone() }))
+        .bench_refs(|simulation| moves.iter().for_each(|own| simulation.push(*own)));
+}
+
 /// The state after a move by chance, of 200,000 with a tool of so many cells in radius.
 #[divan::bench(sample_count = 60, sample_size = 1, args = [2.5, 10.0])]
 fn seek(bencher: Bencher, cells: f64) {

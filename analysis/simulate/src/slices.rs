@@ -23,12 +23,15 @@ pub(crate) const ENDLESS: f64 = 1e5;
 const NEAR: f64 = 1e-8;
 
 /// Slices of a round corner that are looked at first, radians.
-const COARSE: f64 = 0.125;
+const COARSE: f64 = 0.25;
 
 /// The slice that counts, and each beside it, is cut into so many.
 const FINER: usize = 4;
 
-/// A height that finer slices twice change by less is known, mm.
+/// How far the rings are apart through whose heights a parabola is laid, radians: one time after the other.
+const APART: [f64; 4] = [0.06, 0.01, 0.002, 0.000_5];
+
+/// A height that finer slices twice, or the next parabola, change by less is known, mm.
 const KNOWN: f64 = 0.000_003;
 
 /// A part of a tool between two levels.
@@ -285,17 +288,19 @@ impl Leg {
         let mut all = Span::default();
         part.slices.iter().for_each(|slice| all.add(self.within(slice, [x, y])));
         if let Some(corner) = &part.corner {
-            all.add(self.within_corner(corner, [x, y]));
+            self.within_corner(corner, [x, y], &mut all);
         }
         all.heights()
     }
 
-    /// The same of a round corner.
-    fn within_corner(&self, corner: &Corner, at: [f64; 2]) -> Span {
+    /// Adds the same of a round corner.
+    fn within_corner(&self, corner: &Corner, at: [f64; 2], all: &mut Span) {
         let [[low, _], [high, wide]] = [0.0, corner.end].map(|angle| corner.ring(angle));
-        let mut all = Span::default();
-        if self.within(&Slice::cone([low, high], [wide; 2]), at).heights().is_none() {
-            return all;
+        let around = self.within(&Slice::cone([low, high], [wide; 2]), at);
+        // Nothing of it is beyond the cylinder around it.
+        let is_beyond = [around.low < all.low, around.high > all.high];
+        if around.heights().is_none() || is_beyond == [false; 2] {
+            return;
         }
         let count = (corner.end / COARSE).ceil().max(1.0) as usize;
         let mut best = self.best(corner, [0.0, corner.end], count, at);
@@ -305,8 +310,13 @@ impl Leg {
         }
         // From one slice to the next the highest place rises up to one of them, and falls from there; the lowest falls and
         // rises.
-        for side in 0..2 {
+        for side in (0..2).filter(|side| is_beyond[*side]) {
             let Some(mut found) = best else { break };
+            if let Some(height) = self.polish(corner, found.around[side], side == 1, at) {
+                all.add(found.span);
+                all.add_height(height);
+                continue;
+            }
             let mut sure = 0;
             while sure < 2 {
                 let Some(finer) = self.best(corner, found.around[side], found.many[side] * FINER, at) else {
@@ -319,7 +329,35 @@ impl Leg {
             }
             all.add(found.span);
         }
-        all
+    }
+
+    /// The lowest or the highest place of a corner that lies between two angles, if it is one of a smooth curve: the vertex of
+    /// a parabola through the heights of three rings, again and again.
+    fn polish(&self, corner: &Corner, [begin, end]: [f64; 2], is_high: bool, at: [f64; 2]) -> Option<f64> {
+        let height = |angle: f64| {
+            let [level, radius] = corner.ring(angle);
+            let own = self.within(&Slice::cone([level; 2], [radius; 2]), at);
+            let height = if is_high { own.high } else { -own.low };
+            height.is_finite().then_some(height)
+        };
+        let (mut middle, mut last) = (0.5 * (begin + end), f64::NAN);
+        for apart in APART {
+            middle = middle.clamp(apart, (corner.end - apart).max(apart));
+            let [before, own, after] = [middle - apart, middle, middle + apart].map(height);
+            let (before, own, after) = (before?, own?, after?);
+            let bend = before - 2.0 * own + after;
+            if bend >= 0.0 {
+                return None;
+            }
+            let vertex = middle + apart * (0.5 * (before - after) / bend).clamp(-4.0, 4.0);
+            middle = vertex.clamp(0.0, corner.end);
+            let found = height(middle)?;
+            if (found - last).abs() < KNOWN {
+                return Some(if is_high { found.max(last) } else { -found.max(last) });
+            }
+            last = found;
+        }
+        None
     }
 
     /// Cuts a part of a corner into slices, and looks for the lowest and the highest place.

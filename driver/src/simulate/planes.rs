@@ -130,7 +130,7 @@ impl Planes {
     /// Why a cut without a plane cannot be simulated.
     pub(super) fn refuses_beside(&self) -> Option<Unsimulated> {
         match (self.turned, self.lost != [false; 3]) {
-            (true, _) => Some(Unsimulated::Rotary),
+            (true, _) => Some(Unsimulated::Leaning),
             (false, true) => Some(Unsimulated::Unplaced),
             (false, false) => None,
         }
@@ -341,9 +341,9 @@ mod tests {
             why(&path(Tables::default(), &format!("{start}{HEAD}G68.2 X20. Y0 Z-5. I0 J30. K0\n{blocks}")))
         };
         let start = "G0 B0 C0\n";
-        assert_eq!(after(start, "G0 X1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Rotary));
-        assert_eq!(after(start, "G0 B0\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Rotary));
-        assert_eq!(after(start, "G0 B0 C5.\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Rotary));
+        assert_eq!(after(start, "G0 X1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+        assert_eq!(after(start, "G0 B0\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+        assert_eq!(after(start, "G0 B0 C5.\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
         assert_eq!(after(start, "G0 B0 C0\nX1. Y1.\nG43 H1 Z5.\n"), None);
         assert_eq!(after("", "G53 Z0\nG0 B0\nX1. Y1.\nG43 H1 Z5.\n"), None);
         assert_eq!(after(start, "G0 B0 C0\nX1.\nG43 H1 Z5.\n"), Some(Unsimulated::Unplaced));

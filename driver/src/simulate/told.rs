@@ -195,6 +195,7 @@ pub fn write_refusal(
     };
     let message = match why {
         Unsimulated::Rotary => Message::new(NOT_SIMULATED),
+        Unsimulated::Leaning => Message::new(NOT_SIMULATED).form("leaning"),
         Unsimulated::Tilted => Message::new(NOT_SIMULATED).form("tilted"),
         Unsimulated::Unplaced => Message::new(NOT_SIMULATED).form("unplaced"),
     };
