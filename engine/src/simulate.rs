@@ -214,7 +214,7 @@ fn held_against(
 
 /// A part as numbers: heights in mm, and the number of the move that cut last, of each cell; little-endian.
 ///
-/// Of a part with hollows, too: `hollows`, sixteen bytes each: the cell, 0, the lower and the upper end; `covered`, one byte a
+/// Of a part with hollows, too: `hollows`, sixteen bytes each: the cell, the move that cut last there, the lower and the upper end; `covered`, one byte a
 /// cell, 1 where `faces` have the surface; `faces`, sixteen bytes each: the cell, the side and 256 times the length, from and to
 /// which height.
 fn part(cut: &CutProgram) -> Outputs {
@@ -224,8 +224,11 @@ fn part(cut: &CutProgram) -> Outputs {
     let mut outputs = vec![("heights", heights), ("last", last)];
     let covered = covered(map);
     if !covered.is_empty() {
-        let all = map.hollows.iter().flat_map(|(cell, own)| own.iter().map(move |ends| (cell as u32, *ends)));
-        outputs.push(("hollows", all.flat_map(|(cell, ends)| words([cell, 0], ends)).collect()));
+        let all = map.hollows.iter().flat_map(|(cell, own)| own.iter().map(move |ends| (cell, *ends)));
+        outputs.push((
+            "hollows",
+            all.flat_map(|(cell, ends)| words([cell as u32, map.hollows.last(cell)], ends)).collect(),
+        ));
         let of =
             |face: &Face| words([face.cell, u32::from(face.length) << 8 | face.side as u32], face.between);
         outputs.push(("faces", faces(map, &covered, parts::floor(cut)).iter().flat_map(of).collect()));

@@ -18,6 +18,7 @@ fn simulation(shape: &Shape, cells: f64) -> Simulation {
         fixtures: Vec::new(),
         table: None,
         start: [0.0, 0.0, 5.0],
+        tilts: Vec::new(),
     })
 }
 
@@ -32,7 +33,7 @@ fn moves(by: f64) -> Vec<Move> {
                 (sense, y) = (-sense, y + 0.8);
             }
             let end = [x, y, -4.0 + rng.f64() * by];
-            Move { way: Way::Feed, end, tool: 0, turns: true, time: 0.0, line: 0 }
+            Move { way: Way::Feed, end, tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 }
         })
         .collect()
 }
@@ -72,13 +73,32 @@ fn flat_on_circles(bencher: Bencher, cells: f64) {
         |x: f64, y: f64| Way::Arc { plane: [0, 1, 2], centre: [x - 3.0, y], sweep: std::f64::consts::TAU };
     let circles = |n: usize| {
         let [x, y] = [10.0 + (n % 80) as f64, 10.0 + (n / 80) as f64];
-        let to = Move { way: Way::Feed, end: [x, y, -1.0], tool: 0, turns: true, time: 0.0, line: 0 };
+        let to =
+            Move { way: Way::Feed, end: [x, y, -1.0], tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 };
         [to, Move { way: way(x, y), ..to }]
     };
     let moves: Vec<Move> = (0..1_000).flat_map(circles).collect();
     bencher
         .counter(ItemsCount::new(1_000_usize))
         .with_inputs(|| simulation(&Shape::Flat, cells))
+        .bench_refs(|simulation| moves.iter().for_each(|own| simulation.push(*own)));
+}
+
+/// A tool that leans by 30° along the rows, by its shape.
+#[divan::bench(sample_count = 3, sample_size = 1, args = ["flat", "ball", "bull nose"])]
+fn leaning(bencher: Bencher, shape: &str) {
+    let shape = match shape {
+        "flat" => Shape::Flat,
+        "ball" => Shape::Ball,
+        _ => Shape::BullNose { corner: 0.2 },
+    };
+    let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+    let axes = [[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]];
+    let moves: Vec<Move> = moves(0.1).into_iter().take(2_000).map(|own| Move { tilt: 1, ..own }).collect();
+    let setup = simulation(&shape, 10.0).setup().clone();
+    bencher
+        .counter(ItemsCount::new(moves.len()))
+        .with_inputs(|| Simulation::new(Setup { tilts: vec![axes], ..setup.clone() }))
         .bench_refs(|simulation| moves.iter().for_each(|own| simulation.push(*own)));
 }
 

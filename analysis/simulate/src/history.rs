@@ -3,6 +3,7 @@
 //! Every [`STRIDE`] moves it is kept what has changed since the last time, and every [`KEY`] times the whole map. From the
 //! whole map before a place, the changes up to it are put in; from there, at most so many moves are made again.
 
+use crate::hollows::Spaces;
 use crate::map::{HeightMap, TILE};
 
 /// Moves from one place to the next that can be gone to at once.
@@ -21,13 +22,18 @@ struct Changes {
     /// The moves that cut them last, from the first of the stride.
     last: Vec<u16>,
     /// Hollows of them.
-    hollows: Vec<(usize, Vec<[f32; 2]>)>,
+    hollows: Vec<(usize, Spaces)>,
+    /// Hollows of other cells, which are as high as before.
+    under: Vec<(usize, Spaces)>,
 }
 
 impl Changes {
     /// Adds the cells of a part of a row that moves of the stride have cut.
     fn add(&mut self, map: &HeightMap, cells: std::ops::Range<usize>, before: usize) {
         let before = before as u32;
+        let under = map.hollows.range(cells.clone());
+        let under = under.filter(|(cell, own)| own.last > before && map.last[*cell] <= before);
+        self.under.extend(under.map(|(cell, own)| (cell, own.clone())));
         let (mut first, end) = (cells.start, cells.end);
         while let Some(skipped) = map.last[first..end].iter().position(|last| *last > before) {
             first += skipped;
@@ -35,7 +41,7 @@ impl Changes {
             let count = rest.iter().position(|last| *last <= before).unwrap_or(rest.len());
             self.runs.push((first as u32, count as u16));
             let hollows = map.hollows.range(first..first + count);
-            self.hollows.extend(hollows.map(|(cell, own)| (cell, own.to_vec())));
+            self.hollows.extend(hollows.map(|(cell, own)| (cell, own.clone())));
             self.heights.extend_from_slice(&map.heights[first..first + count]);
             self.last.extend(rest[..count].iter().map(|last| (last - before - 1) as u16));
             first += count;
@@ -50,23 +56,20 @@ impl Changes {
             let (first, count) = (*first as usize, usize::from(*count));
             let own =
                 std::iter::from_fn(|| hollows.next_if(|(cell, _)| (first..first + count).contains(cell)));
-            map.hollows.put_all(first..first + count, own.map(|(cell, own)| (*cell, own.as_slice())));
+            map.hollows.put_all(first..first + count, own.map(|(cell, own)| (*cell, own)));
             map.heights[first..first + count].copy_from_slice(&self.heights[at..at + count]);
             let last = map.last[first..first + count].iter_mut().zip(&self.last[at..at + count]);
             last.for_each(|(own, last)| *own = (before + usize::from(*last) + 1) as u32);
             at += count;
         }
+        self.under.iter().for_each(|(cell, own)| map.hollows.put(*cell, own.clone()));
     }
 
     fn bytes(&self) -> usize {
         size_of::<(u32, u16)>() * self.runs.len()
             + 4 * self.heights.len()
             + 2 * self.last.len()
-            + self
-                .hollows
-                .iter()
-                .map(|(_, own)| size_of::<(usize, Vec<[f32; 2]>)>() + 8 * own.len())
-                .sum::<usize>()
+            + self.hollows.iter().chain(&self.under).map(|(_, own)| own.bytes()).sum::<usize>()
     }
 }
 

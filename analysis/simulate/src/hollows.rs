@@ -10,12 +10,27 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+/// The hollows of a cell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Spaces {
+    /// The lower and the upper end of each, the lowest first. They do not touch each other, and none reaches the height of the
+    /// cell.
+    all: Vec<[f32; 2]>,
+    /// Number of the move that was the last to change them, from 1.
+    pub(crate) last: u32,
+}
+
+impl Spaces {
+    /// Bytes that they take.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<(usize, Spaces)>() + size_of_val(self.all.as_slice())
+    }
+}
+
 /// The hollows of a map: of few of its cells. Heights in mm.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hollows {
-    /// By cell: the lower and the upper end of each hollow, the lowest first. Hollows of a cell do not touch each other, and none
-    /// reaches the height of the cell.
-    cells: BTreeMap<usize, Vec<[f32; 2]>>,
+    cells: BTreeMap<usize, Spaces>,
 }
 
 impl Hollows {
@@ -26,16 +41,21 @@ impl Hollows {
 
     /// Those of a cell: where they begin and end, the lowest first.
     pub fn of(&self, cell: usize) -> &[[f32; 2]] {
-        self.cells.get(&cell).map_or(&[], Vec::as_slice)
+        self.cells.get(&cell).map_or(&[], |own| &own.all)
+    }
+
+    /// The move that was the last to change those of a cell, from 1; 0 where there are none.
+    pub fn last(&self, cell: usize) -> u32 {
+        self.cells.get(&cell).map_or(0, |own| own.last)
     }
 
     /// Cells with hollows, and these.
     pub fn iter(&self) -> impl Iterator<Item = (usize, &[[f32; 2]])> {
-        self.cells.iter().map(|(cell, own)| (*cell, own.as_slice()))
+        self.cells.iter().map(|(cell, own)| (*cell, own.all.as_slice()))
     }
 
-    /// Takes the material of a cell between two heights; gives the cell's height after that, and how much was taken.
-    pub(crate) fn take(&mut self, cell: usize, top: f32, [from, to]: [f32; 2]) -> (f32, f32) {
+    /// Takes the material of a cell between two heights, by a move; gives the cell's height after that, and how much was taken.
+    pub(crate) fn take(&mut self, cell: usize, top: f32, [from, to]: [f32; 2], number: u32) -> (f32, f32) {
         let to = to.min(top);
         if from >= to {
             return (top, 0.0);
@@ -57,7 +77,9 @@ impl Hollows {
             own.insert(at, [low, high]);
         }
         let taken = (top - had) - (new - length(&own));
-        self.put(cell, own);
+        if own != before {
+            self.put(cell, Spaces { all: own, last: number });
+        }
         (new, taken)
     }
 
@@ -71,29 +93,29 @@ impl Hollows {
     pub(crate) fn put_all<'h>(
         &mut self,
         cells: Range<usize>,
-        all: impl Iterator<Item = (usize, &'h [[f32; 2]])>,
+        all: impl Iterator<Item = (usize, &'h Spaces)>,
     ) {
         if !self.cells.is_empty() {
             let had: Vec<usize> = self.cells.range(cells).map(|(cell, _)| *cell).collect();
             had.iter().for_each(|cell| drop(self.cells.remove(cell)));
         }
-        all.for_each(|(cell, own)| self.put(cell, own.to_vec()));
+        all.for_each(|(cell, own)| self.put(cell, own.clone()));
     }
 
     /// Those of some cells.
-    pub(crate) fn range(&self, cells: Range<usize>) -> impl Iterator<Item = (usize, &[[f32; 2]])> {
-        self.cells.range(cells).map(|(cell, own)| (*cell, own.as_slice()))
+    pub(crate) fn range(&self, cells: Range<usize>) -> impl Iterator<Item = (usize, &Spaces)> {
+        self.cells.range(cells).map(|(cell, own)| (*cell, own))
     }
 
     /// The sum of the parts of all hollows above a level, along Z, mm.
     pub(crate) fn length_above(&self, level: f64) -> f64 {
         let above = |[low, high]: &[f32; 2]| (f64::from(*high) - f64::from(*low).max(level)).max(0.0);
         // Not `sum`, which makes nothing less than nothing of none.
-        self.cells.values().flatten().map(above).fold(0.0, |all, own| all + own)
+        self.cells.values().flat_map(|own| &own.all).map(above).fold(0.0, |all, own| all + own)
     }
 
-    fn put(&mut self, cell: usize, own: Vec<[f32; 2]>) {
-        match own.is_empty() {
+    pub(crate) fn put(&mut self, cell: usize, own: Spaces) {
+        match own.all.is_empty() {
             true => drop(self.cells.remove(&cell)),
             false => drop(self.cells.insert(cell, own)),
         }
@@ -129,17 +151,17 @@ mod tests {
     #[test]
     fn what_is_taken_leaves_hollows_or_lowers_the_cell() {
         let mut hollows = Hollows::default();
-        assert_eq!(hollows.take(7, 0.0, [-6.0, -4.0]), (0.0, 2.0));
-        assert_eq!(hollows.take(7, 0.0, [-9.0, -8.0]), (0.0, 1.0));
-        assert_eq!(hollows.of(7), [[-9.0, -8.0], [-6.0, -4.0]]);
+        assert_eq!(hollows.take(7, 0.0, [-6.0, -4.0], 1), (0.0, 2.0));
+        assert_eq!(hollows.take(7, 0.0, [-9.0, -8.0], 2), (0.0, 1.0));
+        assert_eq!((hollows.of(7), hollows.last(7)), ([[-9.0, -8.0], [-6.0, -4.0]].as_slice(), 2));
         // Twice takes nothing more; between them both become one.
-        assert_eq!(hollows.take(7, 0.0, [-6.0, -5.0]), (0.0, 0.0));
-        assert_eq!(hollows.take(7, 0.0, [-8.0, -5.5]), (0.0, 2.0));
-        assert_eq!(hollows.of(7), [[-9.0, -4.0]]);
+        assert_eq!(hollows.take(7, 0.0, [-6.0, -5.0], 3), (0.0, 0.0));
+        assert_eq!(hollows.take(7, 0.0, [-8.0, -5.5], 4), (0.0, 2.0));
+        assert_eq!((hollows.of(7), hollows.last(7)), ([[-9.0, -4.0]].as_slice(), 4));
         assert_eq!(hollows.material(7, 0.0, [-10.0, 5.0]), 5.0);
         // From above into the hollow: the cell is as low as that.
-        assert_eq!(hollows.take(7, 0.0, [-4.5, f32::INFINITY]), (-9.0, 4.0));
+        assert_eq!(hollows.take(7, 0.0, [-4.5, f32::INFINITY], 5), (-9.0, 4.0));
         assert!(hollows.is_empty());
-        assert_eq!(hollows.take(7, -9.0, [-5.0, f32::INFINITY]), (-9.0, 0.0));
+        assert_eq!(hollows.take(7, -9.0, [-5.0, f32::INFINITY], 6), (-9.0, 0.0));
     }
 }

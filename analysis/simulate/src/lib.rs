@@ -8,16 +8,18 @@
 //! a block 100 × 60 × 20 mm, a flat end mill of 10 mm, G1 X50. at Z-2.    a slot, 2 mm deep; 500 mm³ a length of 25 mm
 //! ```
 //!
-//! A height map has one height a cell: the tool stands along Z, and cuts nothing from below. What T-slot cutters and
-//! lollipops take under what stays is kept besides ([`Hollows`]).
+//! A height map has one height a cell. What T-slot cutters, lollipops and tools that stand on a tilted plane take under what
+//! stays is kept besides ([`Hollows`]).
 //!
 //! Not here: reading programs, executing and timing them, files, pictures, any dialect's name.
 
 mod alarm;
 mod band;
+mod cut;
 mod faces;
 mod history;
 mod hollows;
+mod leaning;
 mod level_arc;
 mod map;
 mod mesh;
@@ -25,6 +27,7 @@ mod moves;
 mod picture;
 mod rows;
 mod simulation;
+mod slices;
 mod stock;
 mod surface;
 mod sweep;
@@ -32,12 +35,13 @@ mod tool;
 mod under;
 
 pub use alarm::{Alarm, AlarmKind};
+pub use cut::Removed;
 pub use faces::{Face, Side, covered, faces};
 pub use hollows::{Hollows, without};
 pub use map::{Grid, HeightMap};
 pub use mesh::{Triangle, mesh, rasterise};
-pub use moves::{Move, Way};
+pub use moves::{Axes, Move, Way, turned, turned_back};
 pub use picture::{COLOURS, Look, Picture, RAW, draw};
-pub use simulation::{Removed, Setup, Simulation};
+pub use simulation::{Setup, Simulation};
 pub use stock::{Fixture, Stock};
 pub use tool::{Cutter, CutterFault, Shape, Tool};

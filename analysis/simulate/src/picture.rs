@@ -60,8 +60,9 @@ fn shaded(colour: [u8; 3], by: f64) -> [u8; 4] {
     [r, g, b, 255]
 }
 
-fn colour(map: &HeightMap, cell: usize, tool: &dyn Fn(u32) -> usize) -> [u8; 3] {
-    match map.last[cell] {
+/// The colour of what a move has made.
+fn colour(number: u32, tool: &dyn Fn(u32) -> usize) -> [u8; 3] {
+    match number {
         0 => RAW,
         number => COLOURS[tool(number) % COLOURS.len()],
     }
@@ -104,7 +105,7 @@ fn plan(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -
             let column = (x * columns / width).min(columns - 1);
             let cell = row * columns + column;
             let pixel = match map.heights[cell] > level {
-                true => shaded(colour(map, cell, tool), light(rise(map, level, column, row))),
+                true => shaded(colour(map.last[cell], tool), light(rise(map, level, column, row))),
                 false => [0; 4],
             };
             pixels.extend(pixel);
@@ -214,7 +215,7 @@ fn surface_behind(
                 0 => WALLS[usize::from(u >= 0.0)],
                 _ => light(rise(map, level, i, j)),
             };
-            let pixel = shaded(colour(map, own, tool), by);
+            let pixel = shaded(colour(map.last[own], tool), by);
             view.lines(from, seen).for_each(|line| view.put(pixels, column, line, pixel));
         }
         drawn = drawn.max(seen).max(from);
@@ -230,36 +231,43 @@ fn material_behind(
     tool: &dyn Fn(u32) -> usize,
     pixels: &mut [u8],
 ) {
+    let width = map.grid.cells[0];
     let mut hidden = vec![false; view.height];
     let (mut last, mut material) = (None, Vec::new());
     for Place { column: i, row: j, ground } in view.places(map, view.line(column)) {
-        let own = j * map.grid.cells[0] + i;
+        let own = j * width + i;
         let is_new = last.replace(own) != Some(own);
         if is_new {
             material = map.material(own, level);
         }
-        let colour = colour(map, own, tool);
         for (n, [low, high]) in material.iter().enumerate() {
             let [low, high] = [low, high].map(|at| ground + f64::from(at - level));
-            let is_upper = n + 1 == material.len();
             for line in view.lines(low, high) {
                 if std::mem::replace(&mut hidden[line], true) {
                     continue;
                 }
                 // Behind its front a cell shows its top, and where it begins in the uppermost row of pixels.
                 let is_top = !is_new || line + 1 == view.lines(low, high).end;
-                let by = match (is_top, is_upper) {
-                    (true, true) => light(rise(map, level, i, j)),
-                    (true, false) => light([0.0; 2]),
-                    (false, _) => {
-                        let height = f64::from(level) + (line as f64 + 0.5) / view.scale - ground;
-                        WALLS[usize::from(i > 0 && is_solid(map, own - 1, height as f32))]
-                    }
+                let (number, by) = if is_top && n + 1 == material.len() {
+                    (map.last[own], light(rise(map, level, i, j)))
+                } else if is_top {
+                    (map.hollows.last(own), light([0.0; 2]))
+                } else {
+                    // A wall is of the move that has emptied the cell before it.
+                    let height = (f64::from(level) + (line as f64 + 0.5) / view.scale - ground) as f32;
+                    let front = usize::from(i > 0 && is_solid(map, own - 1, height));
+                    let before = [i.checked_sub(1).map(|_| 1), j.checked_sub(1).map(|_| width)][front];
+                    (before.map_or(0, |step| emptied(map, own - step, height)), WALLS[front])
                 };
-                view.put(pixels, column, line, shaded(colour, by));
+                view.put(pixels, column, line, shaded(colour(number, tool), by));
             }
         }
     }
+}
+
+/// The move that was the last to take the material of a cell at a height.
+fn emptied(map: &HeightMap, cell: usize, height: f32) -> u32 {
+    if height >= map.heights[cell] { map.last[cell] } else { map.hollows.last(cell) }
 }
 
 /// Whether a cell has material at a height.

@@ -5,17 +5,17 @@ use std::ops::Range;
 use wide::{CmpLt, f32x4};
 
 use crate::alarm::{Alarm, AlarmKind};
+use crate::cut::{Cut, Hit, Removed, TOUCH, cut_between, probe_between, take};
 use crate::history::{History, STRIDE};
+use crate::leaning::{Leaning, Path};
 use crate::map::{Grid, HeightMap};
-use crate::moves::{Move, Way};
+use crate::moves::{Axes, Move, Way};
+use crate::slices::Convex;
 use crate::stock::{Fixture, Stock};
 use crate::surface::{COUNT, Cells, LANES, Surface};
 use crate::sweep::{chords, sweep};
 use crate::tool::{Cutter, Tool};
 use crate::under::through;
-
-/// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
-const TOUCH: f32 = 0.001;
 
 /// So much less radius has what is looked for in material, mm: a tool may go along the wall that it has cut itself, and places
 /// are rounded.
@@ -38,15 +38,8 @@ pub struct Setup {
     pub table: Option<f64>,
     /// Where the tip is before the first move, X Y Z in mm.
     pub start: [f64; 3],
-}
-
-/// What a move has removed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Removed {
-    /// Volume, mm³.
-    pub volume: f32,
-    /// Greatest depth at a place, mm.
-    pub depth: f32,
+    /// The axes of tilted planes.
+    pub tilts: Vec<Axes>,
 }
 
 /// What of a tool may not touch anything, above its cutter.
@@ -62,6 +55,10 @@ struct Body {
 pub struct Simulation {
     setup: Setup,
     bodies: Vec<Body>,
+    /// The same where the tool leans, if it ever does.
+    leaning: Vec<Leaning>,
+    /// No material of the raw part is lower.
+    floor: f64,
     fixtures: Option<HeightMap>,
     map: HeightMap,
     /// No material is higher.
@@ -86,8 +83,11 @@ impl Simulation {
                 .map(|(radius, base)| Cutter::cylinder(radius, base).thinner(BESIDE)),
             holder: tool.holder.map(|[radius, base]| Cutter::cylinder(radius, base).thinner(BESIDE)),
         });
+        let leaning = setup.tools.iter().filter(|_| !setup.tilts.is_empty());
         Simulation {
             bodies: bodies.collect(),
+            leaning: leaning.map(|tool| Leaning::of(tool, BESIDE)).collect(),
+            floor: setup.stock.extent()[0][2],
             fixtures: Fixture::map(&setup.fixtures, map.grid.cell),
             highest: map.highest(),
             history: History::new(&map),
@@ -143,9 +143,10 @@ impl Simulation {
     /// Makes the next move.
     ///
     /// # Panics
-    /// Where its tool is none of the set-up.
+    /// Where its tool or its tilted plane is none of the set-up.
     pub fn push(&mut self, own: Move) {
         assert!(own.tool < self.setup.tools.len(), "a move with a tool that is not set up");
+        assert!(usize::from(own.tilt) <= self.setup.tilts.len(), "a move on a plane that is not set up");
         self.seek(self.moves.len());
         let from = self.before(self.moves.len());
         if own.way != Way::Away {
@@ -184,12 +185,18 @@ impl Simulation {
 
     /// Cuts; `number` counts from 0.
     fn cut(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
+        if own.tilt != 0 {
+            return self.cut_leaning(from, own, number);
+        }
         let tool = &self.setup.tools[own.tool];
         if lowest(from, own) >= f64::from(self.highest) {
             return Cut::default();
         }
         if tool.cutter.upper().is_some() {
-            let cut = cut_under(&mut self.map, &tool.cutter, from, own, number as u32 + 1);
+            let (grid, to) = (self.map.grid, own.end);
+            let cut = cut_between(&mut self.map, number as u32 + 1, |shown| {
+                through(grid, &tool.cutter, from, to, &own.way, shown);
+            });
             self.history.touch(&cut.columns, &cut.rows);
             return cut;
         }
@@ -210,14 +217,64 @@ impl Simulation {
         cut
     }
 
+    /// The same with a tool that leans.
+    #[cold]
+    fn cut_leaning(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
+        let path = Path { from, own, axes: &self.setup.tilts[usize::from(own.tilt) - 1] };
+        let (grid, between) = (self.map.grid, [self.floor, f64::from(self.highest)]);
+        let parts = &self.leaning[own.tool].cutter;
+        let cut = cut_between(&mut self.map, number as u32 + 1, |shown| {
+            path.through(grid, parts, between, shown);
+        });
+        self.history.touch(&cut.columns, &cut.rows);
+        cut
+    }
+
+    /// How deep parts of a tool that leans are in material.
+    fn probe_leaning(&self, path: &Path, parts: &[Convex]) -> Option<Hit> {
+        let between = [self.floor, f64::from(self.highest)];
+        probe_between(&self.map, |shown| path.through(self.map.grid, parts, between, shown))
+    }
+
+    /// As [`Simulation::look`], of a tool that leans.
+    #[cold]
+    fn look_leaning(&mut self, from: [f64; 3], own: &Move) {
+        let path = Path { from, own, axes: &self.setup.tilts[usize::from(own.tilt) - 1] };
+        let tool = &self.leaning[own.tool];
+        let parts = || [&tool.inside, &tool.shank, &tool.holder].into_iter().flatten();
+        let mut found = Vec::new();
+        if own.way == Way::Rapid {
+            found.extend(self.probe_leaning(&path, &tool.inside).map(|hit| (AlarmKind::Rapid, hit)));
+        }
+        if let Some(fixtures) = &self.fixtures {
+            let all: Vec<Convex> = parts().cloned().collect();
+            let between = [f64::NEG_INFINITY, f64::from(fixtures.highest())];
+            let hit = probe_between(fixtures, |shown| path.through(fixtures.grid, &all, between, shown));
+            found.extend(hit.map(|hit| (AlarmKind::Fixture, hit)));
+        }
+        let low = path.lowest(parts());
+        if let Some(table) = self.setup.table.filter(|table| low < *table - f64::from(TOUCH)) {
+            let [x, y, _] = if own.end[2] <= from[2] { own.end } else { from };
+            found.push((AlarmKind::Table, Hit { place: [x, y, low], depth: (table - low) as f32 }));
+        }
+        for (kind, hit) in found {
+            self.alarm(kind, own, self.moves.len() as u32 + 1, hit);
+        }
+    }
+
     /// What must be asked before a move cuts: what is in its way.
     fn look(&mut self, from: [f64; 3], own: &Move) {
+        if own.tilt != 0 {
+            return self.look_leaning(from, own);
+        }
         let body = &self.bodies[own.tool];
         let low = lowest(from, own);
         let mut found = Vec::new();
         if own.way == Way::Rapid && low < f64::from(self.highest) {
             let hit = match body.cutter.upper() {
-                Some(_) => probe_under(&self.map, &body.cutter, from, own),
+                Some(_) => probe_between(&self.map, |shown| {
+                    through(self.map.grid, &body.cutter, from, own.end, &own.way, shown);
+                }),
                 None => probe(&self.map, &body.cutter, from, own),
             };
             found.extend(hit.map(|hit| (AlarmKind::Rapid, hit)));
@@ -244,7 +301,7 @@ impl Simulation {
         let depth = cut.removed.depth;
         let is_on_neck = self.bodies[own.tool].cutter.upper().is_some();
         // What a tool on a neck takes is never longer than it is.
-        let flute = self.setup.tools[own.tool].flute.filter(|_| !is_on_neck);
+        let flute = self.setup.tools[own.tool].flute.filter(|_| !is_on_neck && own.tilt == 0);
         let over = flute.map_or(0.0, |flute| depth - flute as f32);
         let faults = [
             (AlarmKind::Stopped, if own.turns || own.way == Way::Rapid { 0.0 } else { depth }),
@@ -255,25 +312,39 @@ impl Simulation {
             self.alarm(kind, own, number, Hit { place, depth });
         }
         let body = &self.bodies[own.tool];
-        if body.shank.is_none() && body.holder.is_none() {
+        if own.tilt == 0 && body.shank.is_none() && body.holder.is_none() {
             return;
         }
-        let hits = [(AlarmKind::Shank, &body.shank), (AlarmKind::Holder, &body.holder)];
-        let hits: Vec<_> = hits
-            .into_iter()
-            .filter_map(|(kind, part)| Some((kind, probe(&self.map, part.as_ref()?, from, own)?)))
-            .collect();
-        for (kind, hit) in hits {
+        for (kind, hit) in self.above_the_cut(from, own) {
             self.alarm(kind, own, number, hit);
         }
+    }
+
+    /// Where shank and holder are in what a move leaves; of a tool that leans, what is above its flutes, too.
+    #[cold]
+    fn above_the_cut(&self, from: [f64; 3], own: &Move) -> Vec<(AlarmKind, Hit)> {
+        if own.tilt != 0 {
+            let path = Path { from, own, axes: &self.setup.tilts[usize::from(own.tilt) - 1] };
+            let parts = self.leaning[own.tool].above_the_cut().into_iter();
+            return parts.filter_map(|(kind, part)| Some((kind, self.probe_leaning(&path, part)?))).collect();
+        }
+        let body = &self.bodies[own.tool];
+        let parts = [(AlarmKind::Shank, &body.shank), (AlarmKind::Holder, &body.holder)];
+        parts
+            .into_iter()
+            .filter_map(|(kind, part)| Some((kind, probe(&self.map, part.as_ref()?, from, own)?)))
+            .collect()
     }
 
     /// A place that a move has cut.
     fn where_cut(&self, number: u32, cut: &Cut) -> Option<[f64; 3]> {
         let (grid, width) = (self.map.grid, self.map.grid.cells[0]);
         cut.rows.clone().find_map(|row| {
-            let column = cut.columns.clone().find(|column| self.map.last[row * width + column] == number)?;
-            let height = f64::from(self.map.heights[row * width + column]);
+            let last = |cell: usize| [self.map.last[cell], self.map.hollows.last(cell)];
+            let column = cut.columns.clone().find(|column| last(row * width + column).contains(&number))?;
+            let cell = row * width + column;
+            let under = self.map.hollows.of(cell).first().filter(|_| self.map.last[cell] != number);
+            let height = f64::from(under.map_or(self.map.heights[cell], |own| own[0]));
             Some([grid.centre(0, column), grid.centre(1, row), height])
         })
     }
@@ -320,25 +391,6 @@ fn lowest(from: [f64; 3], own: &Move) -> f64 {
         }
         Way::Away => f64::INFINITY,
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
-    }
-}
-
-/// What a move did to a map, and in which cells.
-#[derive(Clone, Debug, Default)]
-struct Cut {
-    removed: Removed,
-    columns: Range<usize>,
-    rows: Range<usize>,
-}
-
-impl Cut {
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
-        let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
-            true => other.clone(),
-            false => own.start.min(other.start)..own.end.max(other.end),
-        };
-        self.columns = with(&self.columns, columns);
-        self.rows = with(&self.rows, rows);
     }
 }
 
@@ -462,57 +514,6 @@ impl Cells for Cutting<'_> {
         }
         self.sums = sums;
     }
-}
-
-/// Takes the material of a cell between two heights; gives how much that was.
-fn take(map: &mut HeightMap, cell: usize, between: [f32; 2], number: u32) -> f32 {
-    let top = &mut map.heights[cell];
-    if between[0] >= *top {
-        return 0.0;
-    }
-    let (new, taken) = map.hollows.take(cell, *top, between);
-    if taken > 0.0 {
-        (*top, map.last[cell]) = (new, number);
-    }
-    taken
-}
-
-/// Cuts with a tool that cuts under what stays.
-fn cut_under(map: &mut HeightMap, cutter: &Cutter, from: [f64; 3], own: &Move, number: u32) -> Cut {
-    let (mut cut, mut all) = (Cut::default(), 0.0);
-    let (grid, width) = (map.grid, map.grid.cells[0]);
-    through(grid, cutter, from, own.end, &own.way, &mut |cell, between| {
-        let taken = take(map, cell, between, number);
-        if taken > 0.0 {
-            let [row, column] = [cell / width, cell % width];
-            cut.reaches(&(row..row + 1), &(column..column + 1));
-            all += f64::from(taken);
-            cut.removed.depth = cut.removed.depth.max(taken);
-        }
-    });
-    cut.removed.volume = (all * grid.cell * grid.cell) as f32;
-    cut
-}
-
-/// As [`probe`], of a tool that is thinner above.
-fn probe_under(map: &HeightMap, cutter: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
-    let (grid, mut worst) = (map.grid, None::<Hit>);
-    through(grid, cutter, from, own.end, &own.way, &mut |cell, between| {
-        let depth = map.hollows.material(cell, map.heights[cell], between);
-        if depth > worst.map_or(TOUCH, |worst| worst.depth) {
-            let [row, column] = [cell / grid.cells[0], cell % grid.cells[0]];
-            let place = [grid.centre(0, column), grid.centre(1, row), f64::from(between[0])];
-            worst = Some(Hit { place, depth });
-        }
-    });
-    worst
-}
-
-/// Where something is in the way.
-#[derive(Clone, Copy, Debug)]
-struct Hit {
-    place: [f64; 3],
-    depth: f32,
 }
 
 /// How deep a part of a tool goes into a map along a move, where it does.

@@ -22,11 +22,12 @@ fn setup(tool: Tool) -> Setup {
         fixtures: Vec::new(),
         table: None,
         start: [0.0, 0.0, 10.0],
+        tilts: Vec::new(),
     }
 }
 
 fn go(way: Way, end: [f64; 3]) -> Move {
-    Move { way, end, tool: 0, turns: true, time: 0.0, line: 0 }
+    Move { way, end, tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 }
 }
 
 /// What is left after moves at feed, the first of them from above.

@@ -58,6 +58,7 @@ fn judge(shape: &Shape, diameter: f64, from: [f64; 3], own: Move) -> Result<(), 
         fixtures: Vec::new(),
         table: None,
         start: from,
+        tilts: Vec::new(),
     });
     simulation.push(own);
     let grid = simulation.map().grid;
@@ -120,6 +121,7 @@ fn heights(shape: &Shape, diameter: f64, from: [f64; 3], moves: impl Iterator<It
         fixtures: Vec::new(),
         table: None,
         start: from,
+        tilts: Vec::new(),
     });
     moves.for_each(|own| simulation.push(own));
     simulation.map().heights.clone()
@@ -130,7 +132,7 @@ proptest! {
 
     #[test]
     fn lines((shape, diameter) in shapes(), from in point(), to in point()) {
-        let own = Move { way: Way::Feed, end: to, tool: 0, turns: true, time: 0.0, line: 0 };
+        let own = Move { way: Way::Feed, end: to, tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 };
         judge(&shape, diameter, from, own)?;
     }
 
@@ -140,7 +142,7 @@ proptest! {
         (shape, diameter) in shapes(),
         places in prop::collection::vec(([1.0..19.0_f64, 1.0..19.0_f64], prop_oneof![Just(3.0), 0.0..8.0_f64]), 2..8),
     ) {
-        let go = |way, ([x, y], z): ([f64; 2], f64)| Move { way, end: [x, y, z], tool: 0, turns: true, time: 0.0, line: 0 };
+        let go = |way, ([x, y], z): ([f64; 2], f64)| Move { way, end: [x, y, z], tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 };
         let on: Vec<Move> = places.iter().map(|at| go(Way::Feed, *at)).collect();
         let stops = on.iter().flat_map(|own| [*own, Move { way: Way::Away, ..*own }]);
         let from = [places[0].0[0], places[0].0[1], 30.0];
@@ -162,7 +164,7 @@ proptest! {
         let [f, s, n] = plane.map(usize::from);
         let centre = [from[f] + arm[0], from[s] + arm[1]];
         let way = Way::Arc { plane, centre, sweep };
-        let mut own = Move { way, end: from, tool: 0, turns: true, time: 0.0, line: 0 };
+        let mut own = Move { way, end: from, tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 };
         own.end = place(from, &own, 1.0);
         own.end[n] += climb;
         judge(&shape, diameter, from, own)?;

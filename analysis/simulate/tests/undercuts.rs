@@ -25,8 +25,9 @@ fn slotted(second: Tool, cells: usize) -> Simulation {
         fixtures: Vec::new(),
         table: None,
         start: [20.0, -20.0, 50.0],
+        tilts: Vec::new(),
     });
-    let slot = |way, end, tool| Move { way, end, tool, turns: true, time: 0.0, line: 0 };
+    let slot = |way, end, tool| Move { way, end, tool, tilt: 0, turns: true, time: 0.0, line: 0 };
     simulation.push(slot(Way::Rapid, [20.0, -20.0, -12.0], 0));
     simulation.push(slot(Way::Feed, [20.0, 50.0, -12.0], 0));
     simulation.push(slot(Way::Rapid, [20.0, 50.0, 50.0], 0));
@@ -35,7 +36,7 @@ fn slotted(second: Tool, cells: usize) -> Simulation {
 }
 
 fn go(way: Way, end: [f64; 3]) -> Move {
-    Move { way, end, tool: 1, turns: true, time: 0.0, line: 0 }
+    Move { way, end, tool: 1, tilt: 0, turns: true, time: 0.0, line: 0 }
 }
 
 fn kinds(simulation: &Simulation) -> Vec<(AlarmKind, u32)> {

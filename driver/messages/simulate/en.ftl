@@ -8,6 +8,11 @@ simulate-raw = raw part
 simulate-removed = removed
 simulate-under = undercut
 simulate-under-volume = { $volume } mm³ taken under what stays: a picture from above does not show it
+simulate-planes = planes
+simulate-planes-tilted = the tool stands upright on { $planes ->
+        [one] a tilted plane
+       *[other] { $planes } tilted planes
+    }
 simulate-time = time
 simulate-cells = cells
 simulate-block = X{ $x0 } to { $x1 }, Y{ $y0 } to { $y1 }, Z{ $z0 } to { $z1 }
@@ -29,6 +34,7 @@ simulate-grid = { $columns } × { $rows }, { $cell } mm each
 simulate-rests-tool = this rests on a guessed tool: `--tool` or the profile states it
 simulate-rests-raw = this rests on a guessed raw part: `--stock` states it
 simulate-heights = the tool cuts nothing at the start and at places of the machine, until it moves along Z: its height is not known there
+simulate-after-planes = after a tilted plane comes or goes, the tool cuts nothing until X, Y and Z are stated: its position is not known there
 simulate-contours = compensated contours are cut as programmed, without the radius: the profile states it
 simulate-offsets = work offsets { $offsets } lie in one place here: a profile with `[[work_offset]]` says where they are
 simulate-between = between the parts

@@ -2,7 +2,8 @@
 //!
 //! The first line is JSON: how many pieces there are, and for each column its name, its type (`u8`, `u16`, `u32`, `f32`,
 //! `f64`), where it begins, counted in bytes from the end of the line, and how many numbers it has. Numbers are little-endian. An arc is as many
-//! straight pieces as a picture needs.
+//! straight pieces as a picture needs. Where there are tilted planes, that line has their axes as `tilts`: the rows of a matrix, whose
+//! third column is the direction of the tool, from its tip.
 //!
 //! | column | what it is |
 //! |---|---|
@@ -12,11 +13,12 @@
 //! | `line` | line of the source, from 1; 0 if not known |
 //! | `move` | number of the move, from 1 |
 //! | `tool` | place of the tool in the document of `ncc simulate` |
+//! | `tilt` | 0, or the number of the tilted plane on which the tool stands, from 1; only where there are any |
 //! | `kind` | 0 rapid, 1 straight at feed, 2 clockwise, 3 counterclockwise, 4 where nobody knows how high |
 
 use std::io::{self, Write};
 
-use ncc_simulate::Way;
+use ncc_simulate::{Way, turned, turned_back};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -51,6 +53,7 @@ struct Columns {
     lines: Vec<u32>,
     moves: Vec<u32>,
     tools: Vec<u16>,
+    tilts: Vec<u16>,
     kinds: Vec<u8>,
 }
 
@@ -68,6 +71,7 @@ impl Columns {
         self.lines.push(own.line);
         self.moves.push(n as u32 + 1);
         self.tools.push(u16::try_from(own.tool).unwrap_or(u16::MAX));
+        self.tilts.push(own.tilt);
         self.kinds.push(match own.way {
             Way::Rapid => 0,
             Way::Feed => 1,
@@ -83,11 +87,15 @@ impl Columns {
         let Way::Arc { plane, centre, sweep } = own.way else {
             return self.piece(n, path, [from, own.end], [begin, end]);
         };
+        // The arc is one of its tilted plane's axes.
+        let axes = own.tilt.checked_sub(1).map(|n| &path.tilts[usize::from(n)]);
+        let along = |at: [f64; 3]| axes.map_or(at, |axes| turned_back(axes, at));
+        let ends = [along(from), along(own.end)];
         let [f, s, normal] = plane.map(usize::from);
         let count = (sweep.abs() / std::f64::consts::TAU * PIECES).ceil().clamp(1.0, 1e4) as usize;
-        let arm = [from[f] - centre[0], from[s] - centre[1]];
+        let arm = [ends[0][f] - centre[0], ends[0][s] - centre[1]];
         let (radius, end_radius) =
-            (arm[0].hypot(arm[1]), (own.end[f] - centre[0]).hypot(own.end[s] - centre[1]));
+            (arm[0].hypot(arm[1]), (ends[1][f] - centre[0]).hypot(ends[1][s] - centre[1]));
         let mut last = (from, begin);
         for i in 1..=count {
             let part = i as f64 / count as f64;
@@ -98,7 +106,8 @@ impl Columns {
                 let grown = if radius > 0.0 { 1.0 + part * (end_radius / radius - 1.0) } else { 1.0 };
                 at[f] = centre[0] + (arm[0] * cos - arm[1] * sin) * grown;
                 at[s] = centre[1] + (arm[0] * sin + arm[1] * cos) * grown;
-                at[normal] = from[normal] + part * (own.end[normal] - from[normal]);
+                at[normal] = ends[0][normal] + part * (ends[1][normal] - ends[0][normal]);
+                at = axes.map_or(at, |axes| turned(axes, at));
             }
             let time = begin + part * (end - begin);
             self.piece(n, path, [last.0, at], [last.1, time]);
@@ -127,7 +136,13 @@ pub fn write(out: &mut dyn Write, path: &Path) -> io::Result<()> {
     let wholes = wholes.into_iter().map(|(name, own)| (name, "u32", bytes(own, |v| v.to_le_bytes())));
     let rest = [("tool", "u16", bytes(&all.tools, |v| v.to_le_bytes())), ("kind", "u8", all.kinds.clone())];
     let columns: Vec<_> = doubles.chain(singles).chain(wholes).chain(rest).collect();
-    let about = Map::from_iter([("pieces".to_owned(), all.kinds.len().into())]);
+    let tilts = (!path.tilts.is_empty()).then(|| ("tilt", "u16", bytes(&all.tilts, |v| v.to_le_bytes())));
+    let columns: Vec<_> = columns.into_iter().chain(tilts).collect();
+    let mut about = Map::from_iter([("pieces".to_owned(), all.kinds.len().into())]);
+    if !path.tilts.is_empty() {
+        about
+            .insert("tilts".to_owned(), path.tilts.iter().map(|axes| axes.as_flattened().to_vec()).collect());
+    }
     table(out, about, &columns)
 }
 

@@ -158,11 +158,13 @@ mod tests {
                 fixtures: Vec::new(),
                 table: None,
                 start: [-5.0, 5.0, z],
+                tilts: Vec::new(),
             });
             simulation.push(Move {
                 way: Way::Feed,
                 end: [to, 5.0, z],
                 tool: 0,
+                tilt: 0,
                 turns: true,
                 time: 0.0,
                 line: 0,

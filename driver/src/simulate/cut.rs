@@ -73,6 +73,7 @@ pub fn cut(mut path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgra
         fixtures: bench.fixtures,
         table: bench.table,
         start: path.start,
+        tilts: path.tilts.clone(),
     });
     let mut worked = vec![Worked::default(); tools.len()];
     // The kernel keeps them.

@@ -63,6 +63,9 @@ struct Program<'a> {
     zeros: Vec<Zero<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     travel: Option<[[f64; 3]; 2]>,
+    /// Axes of the tilted planes, as rows of matrices.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tilts: Vec<[[f64; 3]; 3]>,
     tools: Vec<Tool>,
     /// mm³.
     removed: f64,
@@ -262,6 +265,7 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
         fixtures: setup.fixtures.iter().map(held).collect(),
         zeros: about.around.zeros.iter().map(|(name, at)| Zero { name, at: at.map(micro) }).collect(),
         travel: about.around.travel.map(|ends| ends.map(|end| end.map(micro))),
+        tilts: setup.tilts.iter().map(|axes| axes.map(|row| row.map(micro))).collect(),
         tools: tools.collect(),
         removed: milli(cut.volume()),
         undercut: milli(cut.simulation.map().hollows_above(cut.simulation.setup().stock.extent()[0][2])),

@@ -19,6 +19,7 @@ pub mod document;
 pub mod files;
 pub mod modes;
 pub mod path;
+mod planes;
 pub mod raw;
 pub mod surroundings;
 pub mod told;

@@ -9,15 +9,16 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ncc_exec::world::Tables;
-use ncc_exec::{Kind, Movement};
+use ncc_exec::{Event, Kind, Movement};
 use ncc_ir::canon::{AXES, Spindle, Turn};
 use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::source::Span;
-use ncc_simulate::{Move, Way};
+use ncc_simulate::{Axes, Move, Way, turned_back};
 use ncc_time::{Timed, path};
 
 use super::comments;
 use super::described::Described;
+use super::planes::{Placed, Planes};
 use crate::time::drive::{Said, Sink};
 
 const Z: usize = 2;
@@ -27,8 +28,12 @@ const Z: usize = 2;
 pub enum Unsimulated {
     /// It cuts while a rotary axis moves, or with the part turned by one.
     Rotary,
-    /// It cuts on a tilted plane.
+    /// It cuts without a tilted plane while the tool, or the part, is turned as one before has turned it.
+    Leaning,
+    /// It cuts on a tilted plane on which it has not turned the tool upright.
     Tilted,
+    /// It cuts where nobody knows where the tool is, as a plane has come or gone.
+    Unplaced,
 }
 
 /// What a program does with a tool.
@@ -60,6 +65,8 @@ pub struct Remark {
 pub struct Path {
     /// Where the tip is before the first one, X Y Z in mm.
     pub start: [f64; 3],
+    /// Axes of the tilted planes on which it moves.
+    pub tilts: Vec<Axes>,
     /// The moves; their tools are places in [`Path::tools`].
     pub moves: Vec<Move>,
     /// When each begins, seconds.
@@ -106,8 +113,9 @@ pub struct Recorder<'t> {
     /// The offset in force at the first cut, or else at the first move.
     offset: Option<u16>,
     has_cut: bool,
-    /// Where the rotary axes stood in the first cut.
+    /// Where the rotary axes stood in the first cut without a plane.
     turned: Option<[Nanos; 3]>,
+    planes: Planes,
     inch: bool,
     /// What comments say, in the program's unit.
     said: BTreeMap<i64, (Described, u32)>,
@@ -128,6 +136,7 @@ impl<'t> Recorder<'t> {
             offset: None,
             has_cut: false,
             turned: None,
+            planes: Planes::default(),
             inch: false,
             said: BTreeMap::new(),
             heading: None,
@@ -146,9 +155,11 @@ impl<'t> Recorder<'t> {
 
     /// All moves, in coordinates of the part.
     pub fn finish(self) -> Path {
-        let Recorder { mut path, tables, highs, top, offset, inch, said, .. } = self;
+        let Recorder { mut path, tables, highs, top, offset, inch, said, mut planes, .. } = self;
+        planes.clear(&mut path.moves);
+        path.tilts = planes.tilts;
         let top = if top.is_finite() { top } else { 0.0 };
-        path.has_unknown_heights = !highs.is_empty();
+        path.has_unknown_heights |= !highs.is_empty();
         for n in highs {
             path.moves[n].end[Z] = top;
         }
@@ -165,6 +176,8 @@ impl<'t> Recorder<'t> {
                 own.end[axis] -= zero;
             }
             if let Way::Arc { plane, centre, .. } = &mut own.way {
+                let axes = usize::from(own.tilt).checked_sub(1).map(|n| &path.tilts[n]);
+                let zero = axes.map_or(zero, |axes| turned_back(axes, zero));
                 centre[0] -= zero[usize::from(plane[0])];
                 centre[1] -= zero[usize::from(plane[1])];
             }
@@ -214,23 +227,14 @@ impl<'t> Recorder<'t> {
         self.tables.work_offsets.get(&offset).is_some_and(|zero| zero[axis].is_some())
     }
 
-    /// Notes what only a cut tells.
-    fn cuts(&mut self, timed: &Timed, said: &Said, tool: usize) {
+    /// Notes what only a cut tells; `why` is why a cut on a tilted plane cannot be simulated.
+    fn cuts(&mut self, timed: &Timed, said: &Said, tool: usize, why: Option<Unsimulated>) {
         let event = &timed.act.event;
         if !self.has_cut {
             (self.has_cut, self.offset) = (true, Some(said.tip.offset));
         }
         self.inch |= event.inch;
-        let rotary = [event.end[3], event.end[4], event.end[5]];
-        let before = [timed.act.from[3], timed.act.from[4], timed.act.from[5]];
-        let turned = *self.turned.get_or_insert(before);
-        let why = if event.state.tilted {
-            Some(Unsimulated::Tilted)
-        } else if rotary != turned || before != turned {
-            Some(Unsimulated::Rotary)
-        } else {
-            None
-        };
+        let why = if event.state.tilted { why } else { self.refuses(timed) };
         if let (Some(why), None) = (why, self.path.unsimulated) {
             self.path.unsimulated = Some((why, event.span));
         }
@@ -242,6 +246,80 @@ impl<'t> Recorder<'t> {
             true => used.across += 1,
             false => used.along += 1,
         }
+    }
+}
+
+impl Recorder<'_> {
+    /// Why a cut without a tilted plane cannot be simulated.
+    fn refuses(&mut self, timed: &Timed) -> Option<Unsimulated> {
+        let (from, end) = (&timed.act.from, &timed.act.event.end);
+        let [before, rotary] = [from, end].map(|at| [at[3], at[4], at[5]]);
+        let turned = *self.turned.get_or_insert(before);
+        match rotary != turned || before != turned {
+            true => Some(Unsimulated::Rotary),
+            false => self.planes.refuses_beside(),
+        }
+    }
+
+    /// Notes what changes where the tip is, besides moves.
+    fn turns(&mut self, event: &Event, said: &Said) {
+        match &event.kind {
+            Kind::Tilt(Some(plane)) => self.planes.set(plane, &said.tip, self.at, &mut self.path.moves),
+            Kind::Tilt(None) => {
+                self.planes.clear(&mut self.path.moves);
+                self.high = true;
+            }
+            Kind::OrientToolAxis(_) => self.planes.orient(event),
+            _ => self.planes.note(&said.tip, event, self.turned.unwrap_or_default()),
+        }
+    }
+
+    /// Where a move goes without a tilted plane.
+    fn upright(
+        &mut self,
+        timed: &Timed,
+        (said, adds, offset): (&Said, [Nanos; 3], u16),
+        (movement, sweep, feeds): (Movement, f64, bool),
+    ) -> Placed {
+        let (act, event) = (&timed.act, &timed.act.event);
+        let mut end = [0, 1, 2].map(|axis| mm(event.end[axis] - adds[axis]));
+        let (was_high, was_lost) = (self.high, self.planes.lost);
+        let is_beside = !self.planes.find(&said.tip);
+        let lost = self.planes.lost;
+        if said.tip.of_machine[Z] && !self.is_placed(offset, Z) || lost[Z] {
+            self.high = true;
+        } else if feeds || act.from[Z] != event.end[Z] || was_lost[Z] {
+            self.high = false;
+        }
+        let way = match movement {
+            _ if is_beside => Way::Away,
+            // A cut at a place of the machine is one beside the part: a wheel is dressed there.
+            Movement::Feed if self.high => Way::Away,
+            Movement::Rapid if was_high && self.high => Way::Away,
+            Movement::Rapid => Way::Rapid,
+            Movement::Feed | Movement::Arc { .. } if !feeds => Way::Away,
+            Movement::Feed => Way::Feed,
+            Movement::Arc { plane, turn, centre, .. } => {
+                let (first, second, normal) = plane.axes();
+                let plane = [first, second, normal].map(|axis| axis as usize);
+                let sense = if turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
+                let centre = [0, 1].map(|n| mm(centre[n] - adds[plane[n]]));
+                Way::Arc { plane: plane.map(|axis| axis as u8), centre, sweep: sense * sweep }
+            }
+        };
+        for axis in 0..2 {
+            if lost[axis] {
+                end[axis] = self.at[axis];
+            }
+        }
+        match self.high {
+            true => self.highs.push(self.path.moves.len()),
+            false => self.top = self.top.max(end[Z]),
+        }
+        if self.high {
+            end[Z] = self.at[Z];
+        }
+        Placed { way, end, tilt: 0, why: None, high: false }
     }
 }
 
@@ -265,9 +343,11 @@ impl Sink for Recorder<'_> {
             let own = Remark { described, line, heading: true };
             self.path.remarks.entry(event.state.tool).or_insert(own);
         }
+        self.turns(event, said);
         let Some(movement) = event.kind.moves() else { return Ok(()) };
         let way = path(event, &act.from);
-        if way.change == [0.0; AXES] && way.sweep == 0.0 {
+        // As the numbers are, a tool may be there already of which only that says where it is.
+        if way.change == [0.0; AXES] && way.sweep == 0.0 && !self.planes.finds(&said.tip) {
             return Ok(());
         }
         let offset = *self.offset.get_or_insert(said.tip.offset);
@@ -284,51 +364,34 @@ impl Sink for Recorder<'_> {
         }
         let tool = self.tool(event.state.tool);
         let feeds = movement != Movement::Rapid && !matches!(event.kind, Kind::Probe { .. });
-        if feeds {
-            self.cuts(timed, said, tool);
-        }
         let adds = self.adds(said, event.state.tool);
-        let tip = |machine: &[Nanos; AXES]| [0, 1, 2].map(|axis| mm(machine[axis] - adds[axis]));
-        let mut end = tip(&event.end);
         if self.path.moves.is_empty() {
-            self.at = tip(&act.from);
+            self.at = [0, 1, 2].map(|axis| mm(act.from[axis] - adds[axis]));
             self.path.start = self.at;
             if self.high {
                 self.path.start[Z] = f64::NEG_INFINITY;
             }
         }
-        let was_high = self.high;
-        if said.tip.of_machine[Z] && !self.is_placed(offset, Z) {
-            self.high = true;
-        } else if feeds || act.from[Z] != event.end[Z] {
-            self.high = false;
+        let number = self.path.moves.len();
+        let on_plane = self.planes.place(event, movement, (&said.tip, adds), (number, way.sweep));
+        if feeds {
+            self.cuts(timed, said, tool, on_plane.and_then(|placed| placed.why));
         }
-        let taken = match movement {
-            // A cut at a place of the machine is one beside the part: a wheel is dressed there.
-            Movement::Feed if self.high => Way::Away,
-            Movement::Rapid if was_high && self.high => Way::Away,
-            Movement::Rapid => Way::Rapid,
-            Movement::Feed | Movement::Arc { .. } if !feeds => Way::Away,
-            Movement::Feed => Way::Feed,
-            Movement::Arc { plane, turn, centre, .. } => {
-                let (first, second, normal) = plane.axes();
-                let plane = [first, second, normal].map(|axis| axis as usize);
-                let sense = if turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
-                let centre = [0, 1].map(|n| mm(centre[n] - adds[plane[n]]));
-                Way::Arc { plane: plane.map(|axis| axis as u8), centre, sweep: sense * way.sweep }
-            }
+        let Placed { way: taken, end, tilt, high, .. } = match on_plane {
+            // Probing cuts nothing.
+            Some(placed) if !feeds && movement != Movement::Rapid => Placed { way: Way::Away, ..placed },
+            Some(placed) => placed,
+            None => self.upright(timed, (said, adds, offset), (movement, way.sweep, feeds)),
         };
-        match self.high {
-            true => self.highs.push(self.path.moves.len()),
-            false => self.top = self.top.max(end[Z]),
-        }
-        if self.high {
-            end[Z] = self.at[Z];
+        self.path.has_unknown_heights |= high;
+        if tilt != 0 {
+            self.top = self.top.max(end[Z]);
         }
         self.path.moves.push(Move {
             way: taken,
             end,
             tool,
+            tilt,
             turns: event.state.spindle != Spindle::Stopped,
             time: timed.end(),
             line: act.place.line,
@@ -345,12 +408,12 @@ impl Sink for Recorder<'_> {
     }
 }
 
-fn mm(nanos: Nanos) -> f64 {
+pub(super) fn mm(nanos: Nanos) -> f64 {
     nanos as f64 / ONE as f64
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::io::Cursor;
 
     use ncc_dialects::{Settings, builtin};
@@ -362,7 +425,7 @@ mod tests {
     use crate::time::drive::{Plan, Stage, Unwatched, drive};
 
     /// The path of blocks of a Fanuc behind the usual head.
-    fn path(tables: Tables, blocks: &str) -> Path {
+    pub(in crate::simulate) fn path(tables: Tables, blocks: &str) -> Path {
         let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
         let job = Job::new(settings.clone(), settings, "a.nc");
         let plan = Plan {

@@ -10,7 +10,7 @@
 
 use std::collections::BTreeSet;
 
-use ncc_simulate::{HeightMap, Move, Stock, Triangle, Way};
+use ncc_simulate::{Axes, HeightMap, Move, Stock, Triangle, Way, turned, turned_back};
 
 use super::path::Path;
 use super::tooling::Fitted;
@@ -107,8 +107,9 @@ pub fn body(triangles: Vec<Triangle>) -> Option<Stock> {
 }
 
 /// Places of an arc: as many as a box needs.
-fn places(from: [f64; 3], own: &Move) -> Vec<[f64; 3]> {
+fn places(from: [f64; 3], own: &Move, axes: Option<&Axes>) -> Vec<[f64; 3]> {
     let Way::Arc { plane, centre, sweep } = own.way else { return vec![from, own.end] };
+    let [from, end] = [from, own.end].map(|at| axes.map_or(at, |axes| turned_back(axes, at)));
     let [f, s, n] = plane.map(usize::from);
     let arm = [from[f] - centre[0], from[s] - centre[1]];
     let count = (sweep.abs() / std::f64::consts::TAU * 128.0).ceil().clamp(1.0, 4096.0) as usize;
@@ -119,11 +120,11 @@ fn places(from: [f64; 3], own: &Move) -> Vec<[f64; 3]> {
         let mut at = from;
         at[f] = centre[0] + arm[0] * cos - arm[1] * sin;
         at[s] = centre[1] + arm[0] * sin + arm[1] * cos;
-        at[n] += part * (own.end[n] - from[n]);
+        at[n] += part * (end[n] - from[n]);
         all.push(at);
     }
-    all.push(own.end);
-    all
+    all.push(end);
+    all.into_iter().map(|at| axes.map_or(at, |axes| turned(axes, at))).collect()
 }
 
 /// A height in thousandths of a millimetre.
@@ -135,24 +136,27 @@ fn level(z: f64) -> i64 {
 ///
 /// Its top is program zero where the program cuts below it and not across above it: so programs are mostly written. Else it
 /// is the highest cut across. Moves at feed at a height to which the tool is lifted are none: some posts write their rapids
-/// so. Of a top above zero, rapids across are not below it. `None` where nothing is cut.
+/// so. Of a top above zero, rapids across are not below it. What is cut on a tilted plane lies within it. `None` where nothing is
+/// cut.
 pub fn guess(path: &Path, tools: &[Fitted]) -> Option<Stock> {
     let moves = || {
         let starts = std::iter::once(path.start).chain(path.moves.iter().map(|own| own.end));
         starts.zip(&path.moves)
     };
+    let axes = |own: &Move| own.tilt.checked_sub(1).map(|n| &path.tilts[usize::from(n)]);
     let upright = |from: &[f64; 3], own: &Move| from[..2] == own.end[..2];
     let lifted: BTreeSet<i64> = moves()
-        .filter(|(from, own)| upright(from, own) && own.end[2] > from[2])
+        .filter(|(from, own)| own.tilt == 0 && upright(from, own) && own.end[2] > from[2])
         .map(|(_, own)| level(own.end[2]))
         .collect();
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let (mut across, mut rapid) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut leaning = f64::NEG_INFINITY;
     for (from, own) in moves() {
         match own.way {
             Way::Away => continue,
             Way::Rapid => {
-                if !upright(&from, own) {
+                if own.tilt == 0 && !upright(&from, own) {
                     rapid = rapid.min(from[2].max(own.end[2]));
                 }
                 continue;
@@ -160,7 +164,23 @@ pub fn guess(path: &Path, tools: &[Fitted]) -> Option<Stock> {
             Way::Feed | Way::Arc { .. } => {}
         }
         let radius = tools[own.tool].tool.cutter.radius();
-        let all = places(from, own);
+        let all = places(from, own, axes(own));
+        if let Some(axes) = axes(own) {
+            // On its way down to the cut, it is beside the part.
+            let axis = axes.map(|row| row[2]);
+            let way: [f64; 3] = std::array::from_fn(|n| own.end[n] - from[n]);
+            let comes_down = (0..3).map(|n| way[n] * axis[n]).sum::<f64>() < 0.0;
+            let all = if comes_down { &all[all.len() - 1..] } else { &all[..] };
+            for at in all {
+                for n in 0..3 {
+                    let wide = radius * (1.0 - axis[n] * axis[n]).max(0.0).sqrt();
+                    low[n] = low[n].min(at[n] - wide);
+                    high[n] = if n < 2 { high[n].max(at[n] + wide) } else { high[n] };
+                }
+                leaning = leaning.max(at[2]);
+            }
+            continue;
+        }
         let level_at = level(from[2].min(own.end[2]));
         let lifted = lifted.contains(&level_at) && all.iter().all(|at| level(at[2]) >= level_at);
         if lifted && !upright(&from, own) {
@@ -188,6 +208,7 @@ pub fn guess(path: &Path, tools: &[Fitted]) -> Option<Stock> {
     }
     // A rapid below zero may be the very fault that is looked for.
     high[2] = if low[2] < 0.0 { across.min(rapid).max(0.0) } else { across };
+    high[2] = high[2].max(leaning);
     if high[2] <= low[2] {
         // All that is cut are holes above zero, or one level at zero.
         high[2] = low[2] + MARGIN;

@@ -195,7 +195,9 @@ pub fn write_refusal(
     };
     let message = match why {
         Unsimulated::Rotary => Message::new(NOT_SIMULATED),
+        Unsimulated::Leaning => Message::new(NOT_SIMULATED).form("leaning"),
         Unsimulated::Tilted => Message::new(NOT_SIMULATED).form("tilted"),
+        Unsimulated::Unplaced => Message::new(NOT_SIMULATED).form("unplaced"),
     };
     let mut lines = Lines::find(&mut source.file, vec![span.start])?;
     lines.own_numbers(source.called.as_ref());
@@ -281,6 +283,9 @@ pub fn assumptions(path: &Path, tables: &Tables, course: &Course) -> Vec<String>
     if path.has_unknown_heights {
         lines.push(words("heights").headline());
     }
+    if !path.tilts.is_empty() {
+        lines.push(words("after-planes").headline());
+    }
     let unstated = path.offsets.iter().filter(|offset| !tables.work_offsets.contains_key(offset));
     let names: Vec<_> = unstated.map(ToString::to_string).collect();
     if names.len() > 1 {
@@ -334,6 +339,11 @@ pub fn write_account(
         (words("raw").headline(), raw_headline(cut)),
         (words("time").headline(), duration::hms(cut.path.end)),
     ];
+    let tilts = setup.tilts.len() as u64;
+    if tilts > 0 {
+        let text = words("planes-tilted").count("planes", tilts).headline();
+        rows.push((words("planes").headline(), text));
+    }
     rows.extend(tool_rows(cut));
     let all = setup.stock.volume(setup.cells);
     let removed = words("of-raw").text("volume", decimal(cut.volume())).text("all", decimal(all));

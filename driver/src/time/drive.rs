@@ -115,8 +115,12 @@ pub struct Tip {
     pub tool: [Nanos; 3],
     /// Work offset in force; 1 is the first.
     pub offset: u16,
+    /// Where program zero lies, as the machine is without a tool, nanos of a millimetre.
+    pub zero: [Nanos; 3],
     /// Which of X, Y and Z end at a place of the machine, which has nothing to do with the part.
     pub of_machine: [bool; 3],
+    /// Which axes the block brings to stated coordinates, wherever they were.
+    pub stated: [bool; AXES],
 }
 
 /// What takes the functions.
@@ -465,7 +469,7 @@ impl<'d> Drive<'d> {
         let exact = self.plan.job.from.dialect.can.cycles_in_exact_path && self.is_call(&stmt.op);
         let contour = self.plan.centre && self.exec.is_on_contour();
         let before = self.exec.offset_in_force();
-        let of_machine = if self.wants_tip { self.goes_to_machine(&stmt.op) } else { [false; 3] };
+        let tip = if self.wants_tip { self.tip_of(&stmt.op) } else { Tip::default() };
         if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
             return Ok(Err(refusal));
         }
@@ -481,7 +485,7 @@ impl<'d> Drive<'d> {
         if let Op::Comment(remark) = &stmt.op {
             said.remark = Some(Rc::from(&**remark));
         }
-        said.tip.of_machine = of_machine;
+        said.tip = tip;
         if contour {
             self.note_contour(stmt.span, place, &said);
         }

@@ -83,7 +83,7 @@ export interface Heights {
 export class Hollows {
   private readonly ends: Float32Array;
 
-  /** Four words each: the cell, 0, the lower and the upper end. */
+  /** Four words each: the cell, the move that cut last there, the lower and the upper end. */
   constructor(private readonly words: Uint32Array) {
     this.ends = new Float32Array(words.buffer);
   }
@@ -94,6 +94,11 @@ export class Hollows {
 
   cell(n: number): number {
     return this.words[4 * n] as number;
+  }
+
+  /** Of the hollows of its cell: the move that cut last there. */
+  last(n: number): number {
+    return this.words[4 * n + 1] as number;
   }
 
   /** mm */

@@ -12,7 +12,9 @@ import {
   NearestFilter,
   RGFormat,
   RawShaderMaterial,
+  RedFormat,
   RedIntegerFormat,
+  UnsignedByteType,
   UnsignedIntType,
   type IUniform,
 } from "three";
@@ -28,6 +30,8 @@ uniform highp usampler2D hollowed;
 /** The lower and the upper end of each hollow. */
 uniform highp sampler2D hollows;
 uniform bool hasHollows;
+/** The move that cut the hollows of each cell last. */
+uniform highp usampler2D hollowLast;
 
 bool isCovered(ivec2 own) {
   return hasHollows && (texelFetch(hollowed, own, 0).r & 1u) == 1u;
@@ -45,6 +49,24 @@ bool isHollow(ivec2 own, float height) {
 }
 `;
 
+/** Who made what is seen of a face: the cell of a wall is the one before it, which was emptied. */
+export const MAKER = /* glsl */ `
+flat in int side;
+bool isOutside(ivec2 own) {
+  return any(lessThan(own, ivec2(0))) || any(greaterThanEqual(own, cells));
+}
+ivec2 makerCell(ivec2 own) {
+  return own + (side == 2 ? ivec2(0, -1) : side == 3 ? ivec2(1, 0) : side == 4 ? ivec2(0, 1) : side == 5 ? ivec2(-1, 0) : ivec2(0));
+}
+bool isBelow(ivec2 own, float height) {
+  return side == 1 || height < texelFetch(heights, own, 0).r - 0.001;
+}
+uint maker(ivec2 own, float height) {
+  if (isOutside(own)) return 0u;
+  return isBelow(own, height) ? texelFetch(hollowLast, own, 0).r : texelFetch(last, own, 0).r;
+}
+`;
+
 /** One face of blocks in a row. The varyings are those of the grid. */
 const vertex = (map: string) => /* glsl */ `
 precision highp float;
@@ -59,11 +81,12 @@ out vec2 at;
 out vec3 face;
 out float border;
 flat out int isGone;
+flat out int side;
 
 void main() {
   int corner = gl_VertexID < 3 ? gl_VertexID : gl_VertexID - 2;
   vec2 part = vec2(corner & 1, corner >> 1);
-  int side = int(own.y & 255u);
+  side = int(own.y & 255u);
   float row = float(own.y >> 8);
   vec2 between = uintBitsToFloat(own.zw);
   vec2 first = vec2(int(own.x) % cells.x, int(own.x) / cells.x);
@@ -90,6 +113,8 @@ export class Faces {
     hollowed: { value: null },
     hollows: { value: null },
     hasHollows: { value: false },
+    hollowLast: { value: null },
+    hollowTint: { value: null },
   };
 
   /** `part` are the grid's uniforms, and the fragment shaders are its own. */
@@ -116,6 +141,9 @@ export class Faces {
     this.pick = make(pick);
   }
 
+  /** The move that cut the hollows of each cell last; empty of a part without. */
+  lasts = new Uint32Array();
+
   /** Whether there are any. */
   get some(): boolean {
     return this.own.hasHollows!.value as boolean;
@@ -125,6 +153,7 @@ export class Faces {
   show({ hollows, covered, faces }: Heights, cells: [number, number]): void {
     if (!covered.length && !this.some) return;
     this.own.hasHollows!.value = covered.length > 0;
+    this.lasts = new Uint32Array(covered.length);
     for (const mesh of [this.drawn, this.pick]) {
       mesh.geometry.dispose();
       mesh.geometry = new InstancedBufferGeometry();
@@ -132,20 +161,30 @@ export class Faces {
       mesh.geometry.instanceCount = faces.length / 4;
       mesh.geometry.setDrawRange(0, 6);
     }
-    for (const name of ["hollowed", "hollows"]) (this.own[name]!.value as DataTexture | null)?.dispose();
+    for (const name of ["hollowed", "hollows", "hollowLast"]) (this.own[name]!.value as DataTexture | null)?.dispose();
     if (!covered.length) return;
     const packed = Uint32Array.from(covered);
     const ends = new Float32Array(2 * ROW * Math.max(1, Math.ceil(hollows.count / ROW)));
     for (let n = 0; n < hollows.count; n += 1) {
       ends.set([hollows.low(n), hollows.high(n)], 2 * n);
       const cell = hollows.cell(n);
+      this.lasts[cell] = hollows.last(n);
       const before = packed[cell] as number;
       // Of a cell with more than fifteen the rest is drawn as material.
       if (before < 2) packed[cell] = before + 2 + 32 * n;
       else if (((before >> 1) & 15) < 15) packed[cell] = before + 2;
     }
     this.own.hollowed!.value = texture(new DataTexture(packed, ...cells, RedIntegerFormat, UnsignedIntType));
+    this.own.hollowLast!.value = texture(new DataTexture(this.lasts, ...cells, RedIntegerFormat, UnsignedIntType));
     this.own.hollows!.value = texture(new DataTexture(ends, ROW, ends.length / 2 / ROW, RGFormat, FloatType));
+  }
+
+  /** As the grid's, of the hollows. */
+  setTint(tint: Uint8Array, cells: [number, number]): void {
+    (this.own.hollowTint!.value as DataTexture | null)?.dispose();
+    const own = texture(new DataTexture(tint, ...cells, RedFormat, UnsignedByteType));
+    own.unpackAlignment = 1;
+    this.own.hollowTint!.value = own;
   }
 
   setVisible(on: boolean): void {

@@ -217,7 +217,7 @@ export class MachinePane {
     const { view, path, heights, colouring, cut } = this;
     if (!view || !path || !heights) return;
     const tint = tintOf(colouring, path, heights.last);
-    if (tint) view.stock.setTint(tint);
+    if (tint) view.stock.setTint(tint, tintOf(colouring, path, view.stock.faces.lasts) ?? tint);
     if (colouring === "depth") view.stock.setColouring(3, path.box.low[2], Math.max(path.box.high[2], cut?.raw.high[2] ?? 0));
     else view.stock.setColouring(colouring === "kind" ? 0 : colouring === "tool" || colouring === "operation" ? 1 : 2);
     view.draw();

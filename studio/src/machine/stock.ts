@@ -21,7 +21,7 @@ import {
   type IUniform,
 } from "three";
 import type { Cut, Heights } from "../engine/part";
-import { Faces, HOLLOWS } from "./hollows";
+import { Faces, HOLLOWS, MAKER } from "./hollows";
 import { SCALE } from "./shaders";
 
 /** Where the cells are, and how the grid that is drawn lies on them. */
@@ -100,11 +100,13 @@ uniform vec4 look;
 ${SCALE}
 ${HOLLOWS}
 #ifdef FACES
+uniform sampler2D hollowTint;
 uniform sampler2D heights;
 ${MAP}
 float heightAt(ivec2 own) {
   return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
 }
+${MAKER}
 #endif
 in vec3 place;
 in vec2 at;
@@ -136,10 +138,17 @@ void main() {
 #endif
   vec3 normal = normalize(border > 0.001 ? cross(dFdx(place), dFdy(place)) : looks);
   if (dot(normal, eye) < 0.0) normal = -normal;
+#ifdef FACES
+  ivec2 made = makerCell(own_cell);
+  uint move = maker(made, place.z);
+  float value = 0.0;
+  if (!isOutside(made)) value = (isBelow(made, place.z) ? texelFetch(hollowTint, made, 0) : texelFetch(tint, made, 0)).r * 255.0;
+#else
   uint move = texelFetch(last, own_cell, 0).r;
+  float value = texelFetch(tint, own_cell, 0).r * 255.0;
+#endif
   float touched = move > 0u ? 1.0 : 0.0;
   vec3 own = mix(raw, cut, touched);
-  float value = texelFetch(tint, own_cell, 0).r * 255.0;
   if (touched > 0.5 && colouring == 1) own = mix(own, tools[int(value + 0.5) & 7], 0.7);
   if (touched > 0.5 && colouring == 2) own = mix(own, scale(value / 255.0), 0.8);
   if (touched > 0.5 && colouring == 3) own = mix(own, scale((place.z - range.x) / max(range.y - range.x, 1e-6)), 0.8);
@@ -166,16 +175,23 @@ precision highp usampler2D;
 uniform usampler2D last;
 uniform vec4 section;
 ${HOLLOWS}
+#ifdef FACES
+uniform sampler2D heights;
+${MAP}
+${MAKER}
+#endif
 in vec3 place;
 in vec2 at;
 flat in int isGone;
 out vec4 ink;
 void main() {
   if (isGone == 1 || dot(section.xyz, place) > section.w) discard;
-#ifndef FACES
+#ifdef FACES
+  int id = int(maker(makerCell(ivec2(at + 0.5)), place.z));
+#else
   if (isCovered(ivec2(at + 0.5))) discard;
-#endif
   int id = int(texelFetch(last, ivec2(at + 0.5), 0).r);
+#endif
   ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 128.0) / 255.0;
 }
 `;
@@ -310,7 +326,8 @@ export class StockView {
   }
 
   /** A number for each cell, 0 to 255: of a colour, or a place on the scale. */
-  setTint(tint: Uint8Array): void {
+  setTint(tint: Uint8Array, ofHollows: Uint8Array): void {
+    if (this.faces.some) this.faces.setTint(ofHollows, this.cells);
     const texture = this.uniforms.tint!.value as DataTexture | null;
     if (!texture || tint.length !== this.cells[0] * this.cells[1]) return;
     (texture.image as { data: unknown }).data = tint;

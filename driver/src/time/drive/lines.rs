@@ -53,12 +53,14 @@ impl<'d> Drive<'d> {
     fn along(&mut self, lines: Rows, last: &Event, text: &[u8]) -> io::Result<usize> {
         let mut made = std::mem::take(&mut self.along);
         made.clear();
-        let way = self.exec.way_along(lines, last, |row, _, end| made.push((row.span(), *end)));
+        let way = self.exec.way_along(lines, last, |row, _, end| made.push((row.span(), row.axes(), *end)));
         if let Some(way) = &way {
             self.exec.go_along(way);
         }
-        for (span, end) in &made {
+        for (span, axes, end) in &made {
             let (place, mut said) = self.place(*span, text);
+            // Words of rows are absolute.
+            said.tip.stated = std::array::from_fn(|axis| axes >> axis & 1 == 1);
             self.follow_along(place.line);
             said.executed = self.executed();
             self.event(Event { span: *span, end: *end, ..last.clone() }, place, said);
@@ -76,6 +78,13 @@ impl<'d> Drive<'d> {
         (Place { line, span }, Said { block, executed: self.executed(), ..Said::default() })
     }
 
+    /// What leads to where the tip is, as the control has it now.
+    fn tip(&self, said: Tip) -> Tip {
+        let (tool, zero) = (self.exec.tool_adds(), self.exec.in_program(&[0; AXES]));
+        let zero = [0, 1, 2].map(|axis| -zero[axis] - tool[axis]);
+        Tip { tool, zero, offset: self.exec.offset_in_force(), ..said }
+    }
+
     /// Passes an event on, with what its block says.
     pub(super) fn event(&mut self, mut event: Event, place: Place, said: Said) {
         if matches!(event.kind, Kind::Attribute(_)) {
@@ -90,7 +99,7 @@ impl<'d> Drive<'d> {
         let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
         let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
         let tip = match self.wants_tip {
-            true => Tip { tool: self.exec.tool_adds(), offset: self.exec.offset_in_force(), ..said.tip },
+            true => self.tip(said.tip),
             false => said.tip,
         };
         self.said.push_back(Said { reach, turned, tip, ..said });
@@ -101,8 +110,8 @@ impl<'d> Drive<'d> {
     }
 }
 
-/// Where a line stands, and where it ends in the machine.
-pub(super) type Made = (Span, [Nanos; AXES]);
+/// Where a line stands, the axes that it names, bit by bit, and where it ends in the machine.
+pub(super) type Made = (Span, u8, [Nanos; AXES]);
 
 #[cfg(test)]
 mod tests {

@@ -1,17 +1,17 @@
 //! What is noted of a program: what it depends on, what its cycles take from the control, and what was found in it.
 
 use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE};
-use ncc_ir::canon::{Modes, PathMode};
+use ncc_ir::canon::{AXES, Distance, Modes, PathMode};
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::program::cycle::{Clearance, CycleKind};
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::program::{Coord, Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::unexecuted::ValueUnexecuted;
 use ncc_machines::reading::Told;
 use ncc_time::{Act, Place};
 
-use super::{Drive, MOST_HELD, Said};
+use super::{Drive, MOST_HELD, Said, Tip};
 use crate::job::parameters::parameter;
 use crate::machines::pair::Answer;
 use crate::time::modes::{Followed, Length};
@@ -79,6 +79,24 @@ impl<'d> Drive<'d> {
             self.course.offsets.insert(depends.0);
             self.course.lengths.insert(depends.1);
         }
+    }
+
+    /// What the words of a statement say of where the tip is.
+    pub(super) fn tip_of(&mut self, op: &Op) -> Tip {
+        let to = match op {
+            Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) | Op::Hole(to) => Some(&to.to),
+            Op::SynchronisedFeed(to) => Some(&to.to),
+            Op::ArcFeed(arc) => Some(&arc.to),
+            Op::ArcForm(arc) => Some(&arc.to),
+            // Of a point by its distance and angle it is not asked where its pole is.
+            _ => None,
+        };
+        let distance = self.exec.distance();
+        let stated = |word: &Option<Coord>| {
+            word.as_ref().is_some_and(|word| word.distance.or(distance) == Distance::Absolute)
+        };
+        let stated = to.map_or([false; AXES], |to| to.axes.each_ref().map(stated));
+        Tip { of_machine: self.goes_to_machine(op), stated, ..Tip::default() }
     }
 
     /// Which of X, Y and Z a statement brings to a place of the machine.

@@ -1,0 +1,90 @@
+//! What moves do to a map: cells that are cut between two heights, and material that is in the way.
+
+use std::ops::Range;
+
+use crate::map::{Grid, HeightMap};
+
+/// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
+pub(crate) const TOUCH: f32 = 0.001;
+
+/// What a move has removed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Removed {
+    /// Volume, mm³.
+    pub volume: f32,
+    /// Greatest depth at a place, mm.
+    pub depth: f32,
+}
+
+/// What a move did to a map, and in which cells.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cut {
+    pub(crate) removed: Removed,
+    pub(crate) columns: Range<usize>,
+    pub(crate) rows: Range<usize>,
+}
+
+impl Cut {
+    pub(crate) fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
+        let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
+            true => other.clone(),
+            false => own.start.min(other.start)..own.end.max(other.end),
+        };
+        self.columns = with(&self.columns, columns);
+        self.rows = with(&self.rows, rows);
+    }
+}
+
+/// Where something is in the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hit {
+    pub(crate) place: [f64; 3],
+    pub(crate) depth: f32,
+}
+
+/// Takes the material of a cell between two heights; gives how much that was.
+pub(crate) fn take(map: &mut HeightMap, cell: usize, between: [f32; 2], number: u32) -> f32 {
+    let top = &mut map.heights[cell];
+    if between[0] >= *top {
+        return 0.0;
+    }
+    let (new, taken) = map.hollows.take(cell, *top, between, number);
+    if new < *top {
+        (*top, map.last[cell]) = (new, number);
+    }
+    taken
+}
+
+/// Shows cells, and between which heights a tool goes through each.
+pub(crate) type Shown<'s> = &'s mut dyn FnMut(usize, [f32; 2]);
+
+/// Cuts the cells that are shown.
+pub(crate) fn cut_between(map: &mut HeightMap, number: u32, show: impl FnOnce(Shown)) -> Cut {
+    let (mut cut, mut all) = (Cut::default(), 0.0);
+    let (cell_side, width) = (map.grid.cell, map.grid.cells[0]);
+    show(&mut |cell, between| {
+        let taken = take(map, cell, between, number);
+        if taken > 0.0 {
+            let [row, column] = [cell / width, cell % width];
+            cut.reaches(&(row..row + 1), &(column..column + 1));
+            all += f64::from(taken);
+            cut.removed.depth = cut.removed.depth.max(taken);
+        }
+    });
+    cut.removed.volume = (all * cell_side * cell_side) as f32;
+    cut
+}
+
+/// The deepest place where material is in the way, of the cells that are shown.
+pub(crate) fn probe_between(map: &HeightMap, show: impl FnOnce(Shown)) -> Option<Hit> {
+    let (grid, mut worst): (Grid, _) = (map.grid, None::<Hit>);
+    show(&mut |cell, between| {
+        let depth = map.hollows.material(cell, map.heights[cell], between);
+        if depth > worst.map_or(TOUCH, |worst| worst.depth) {
+            let [row, column] = [cell / grid.cells[0], cell % grid.cells[0]];
+            let place = [grid.centre(0, column), grid.centre(1, row), f64::from(between[0])];
+            worst = Some(Hit { place, depth });
+        }
+    });
+    worst
+}

@@ -1,0 +1,379 @@
+//! Tilted planes of a program: where the tip is on the part while its points are those of a plane.
+//!
+//! ```text
+//! G68.2 X20. Y0 Z-5. I0 J30. K0    X'6 Y'8 Z'-12 of the plane are X26 Y12.9 Z-11.4 of the part; the tool leans by 30°
+//! G53.1                            here it is turned upright on the plane
+//! ```
+//!
+//! No program says where the tip is when rotary axes have turned the tool or the part: the kinematics are the machine's. So
+//! nobody knows it from there on, until the program has stated X, Y and Z of the plane, and again after the plane, until it has
+//! stated those of the part. Nothing is cut until then, except that a tool of which only the height is not known comes straight
+//! down from as high as it ever is on the plane.
+
+use ncc_exec::{Event, Movement, TiltedPlane};
+use ncc_ir::canon::{AXES, Turn};
+use ncc_ir::expr::num::Nanos;
+use ncc_simulate::{Axes, Move, Way, turned, turned_back};
+
+use super::path::{Unsimulated, mm};
+use crate::time::drive::Tip;
+
+const Z: usize = 2;
+
+/// A plane that is no more tilted than this is not: of its directions.
+const LEVEL: f64 = 1e-12;
+
+/// The plane in force.
+#[derive(Debug)]
+struct Plane {
+    axes: Axes,
+    /// Its zero, in coordinates of the machine without a tool, mm.
+    zero: [f64; 3],
+    /// Where zero of the program lies without it, in the same coordinates.
+    program: [f64; 3],
+    /// Where the rotary axes stood when the tool was turned upright on it; `None` before that.
+    upright: Option<[Nanos; 3]>,
+    /// Which of its coordinates of the tip are known.
+    known: [bool; 3],
+    /// Where the tip is, along its axes.
+    at: [f64; 3],
+    /// The greatest Z that is known.
+    top: f64,
+    /// Moves that end at a Z that nobody knows, and their X and Y.
+    highs: Vec<(usize, [f64; 2])>,
+}
+
+/// Where a move ends on the part.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed {
+    pub(super) way: Way,
+    /// In coordinates of the machine without a tool, mm; so is the centre of an arc, along the axes of its plane.
+    pub(super) end: [f64; 3],
+    pub(super) tilt: u16,
+    /// Why it cannot be simulated, if it cuts.
+    pub(super) why: Option<Unsimulated>,
+    /// Whether its height is not known.
+    pub(super) high: bool,
+}
+
+/// All planes of a program.
+#[derive(Debug, Default)]
+pub(super) struct Planes {
+    /// Axes of those on which it cuts.
+    pub(super) tilts: Vec<Axes>,
+    now: Option<Plane>,
+    /// Which of X, Y and Z nobody knows after a plane.
+    pub(super) lost: [bool; 3],
+    /// Whether a plane has turned the tool, or the part, and nothing has turned it back.
+    turned: bool,
+    /// Rotary axes that the program has stated so far, and those stated since it was turned.
+    stated: [[bool; 3]; 2],
+}
+
+impl Planes {
+    /// A plane comes into force; `at` is where the tip is.
+    pub(super) fn set(&mut self, plane: &TiltedPlane, tip: &Tip, at: [f64; 3], moves: &mut [Move]) {
+        self.clear(moves);
+        let axes = plane.axes;
+        let program = tip.zero.map(mm);
+        let zero: [f64; 3] = std::array::from_fn(|n| program[n] + mm(plane.origin[n]));
+        let at = turned_back(&axes, std::array::from_fn(|n| at[n] - zero[n]));
+        self.now = Some(Plane {
+            axes,
+            zero,
+            program,
+            upright: None,
+            known: [false; 3],
+            at,
+            top: f64::NEG_INFINITY,
+            highs: Vec::new(),
+        });
+    }
+
+    /// The plane is over; the moves on it whose height nobody knows are as high as it ever is there.
+    pub(super) fn clear(&mut self, moves: &mut [Move]) {
+        let Some(plane) = self.now.take() else { return };
+        self.lost = [true; 3];
+        for (n, [x, y]) in &plane.highs {
+            let top = if plane.top.is_finite() { plane.top } else { plane.at[Z] };
+            moves[*n].end = plane.place([*x, *y, top]);
+        }
+    }
+
+    /// The tool is turned upright on the plane.
+    pub(super) fn orient(&mut self, event: &Event) {
+        let Some(plane) = &mut self.now else { return };
+        plane.upright = Some(rotary(&event.end));
+        plane.known = [false; 3];
+        // On a plane that is turned by nothing all rotary axes stand at their zeros.
+        self.turned = !plane.is_straight();
+        self.stated[1] = [false; 3];
+    }
+
+    /// Notes what a block states of rotary axes.
+    pub(super) fn note(&mut self, tip: &Tip, event: &Event, upright: [Nanos; 3]) {
+        for axis in 0..3 {
+            if tip.stated[3 + axis] {
+                self.stated[0][axis] = true;
+                self.stated[1][axis] = event.end[3 + axis] == upright[axis];
+            }
+        }
+        if self.turned
+            && self.now.is_none()
+            && self.stated[1] == self.stated[0]
+            && self.stated[1] != [false; 3]
+        {
+            self.turned = false;
+        }
+    }
+
+    /// Why a cut without a plane cannot be simulated.
+    pub(super) fn refuses_beside(&self) -> Option<Unsimulated> {
+        match (self.turned, self.lost != [false; 3]) {
+            (true, _) => Some(Unsimulated::Leaning),
+            (false, true) => Some(Unsimulated::Unplaced),
+            (false, false) => None,
+        }
+    }
+
+    /// Whether a block states coordinates that nobody knew.
+    pub(super) fn finds(&self, tip: &Tip) -> bool {
+        (0..3).any(|axis| match &self.now {
+            Some(plane) => tip.stated[axis] && !plane.known[axis],
+            None => tip.stated[axis] && self.lost[axis],
+        })
+    }
+
+    /// Notes which coordinates are known again without a plane; gives whether X and Y are, before and after.
+    pub(super) fn find(&mut self, tip: &Tip) -> bool {
+        let before = self.lost[..2] == [false; 2];
+        for axis in 0..3 {
+            self.lost[axis] &= !(tip.stated[axis] || tip.of_machine[axis]);
+        }
+        before && self.lost[..2] == [false; 2]
+    }
+
+    /// Where a move on the plane goes. `adds`: what the tool adds; `number`: of the move, from 0; `sweep`: of an arc.
+    pub(super) fn place(
+        &mut self,
+        event: &Event,
+        movement: Movement,
+        (tip, adds): (&Tip, [Nanos; 3]),
+        (number, sweep): (usize, f64),
+    ) -> Option<Placed> {
+        let plane = self.now.as_mut()?;
+        let before = plane.known;
+        if tip.of_machine != [false; 3] {
+            // Along which axes of the plane those of the machine go, its kinematics alone say.
+            plane.known = [false; 3];
+        } else {
+            (0..3).for_each(|axis| plane.known[axis] |= tip.stated[axis]);
+        }
+        let along = |machine: Nanos, axis: usize| mm(machine - adds[axis]) - plane.program[axis];
+        let at = [0, 1, 2].map(|n| if plane.known[n] { along(event.end[n], n) } else { plane.at[n] });
+        let [was_known, known] = [before, plane.known].map(|known| known == [true; 3]);
+        let comes_down = before[..2] == [true; 2] && known && movement == Movement::Rapid;
+        let mut tilt = 0;
+        let mut way = match movement {
+            Movement::Rapid if was_known && known || comes_down => Way::Rapid,
+            Movement::Feed if was_known && known => Way::Feed,
+            Movement::Arc { plane: of, turn, centre, .. } if was_known && known => {
+                let (first, second, normal) = of.axes();
+                let of = [first, second, normal].map(|axis| axis as usize);
+                let sense = if turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
+                let back = turned_back(&plane.axes, plane.zero);
+                let centre = [0, 1].map(|n| along(centre[n], of[n]) + back[of[n]]);
+                Way::Arc { plane: of.map(|axis| axis as u8), centre, sweep: sense * sweep }
+            }
+            Movement::Rapid | Movement::Feed | Movement::Arc { .. } => Way::Away,
+        };
+        let is_arc_of_another_plane = matches!(way, Way::Arc { plane: [_, _, 0 | 1], .. });
+        let mut why = match plane.upright {
+            None => Some(Unsimulated::Tilted),
+            Some(upright) if upright != rotary(&event.end) => Some(Unsimulated::Rotary),
+            Some(_) if !(was_known && known) => Some(Unsimulated::Unplaced),
+            Some(_) => None,
+        };
+        if plane.axes[2][2] < 1.0 - LEVEL || is_arc_of_another_plane {
+            let known = self.tilts.iter().position(|axes| *axes == plane.axes);
+            match u16::try_from(known.unwrap_or(self.tilts.len()) + 1) {
+                Ok(number) => tilt = number,
+                Err(_) => why = why.or(Some(Unsimulated::Tilted)),
+            }
+            if known.is_none() {
+                self.tilts.push(plane.axes);
+            }
+        } else if let Way::Arc { centre, .. } = &mut way {
+            // Upright, an arc is one of X and Y of the part.
+            let [x, y, _] = turned(&plane.axes, [centre[0], centre[1], 0.0]);
+            *centre = [x, y];
+        }
+        let high = plane.known == [true, true, false];
+        if high {
+            plane.highs.push((number, [at[0], at[1]]));
+        } else if known {
+            plane.top = plane.top.max(at[Z]);
+        }
+        plane.at = at;
+        Some(Placed { way, end: plane.place(at), tilt, why, high })
+    }
+}
+
+impl Plane {
+    /// A place along its axes, in coordinates of the machine without a tool.
+    fn place(&self, at: [f64; 3]) -> [f64; 3] {
+        let at = turned(&self.axes, at);
+        std::array::from_fn(|n| self.zero[n] + at[n])
+    }
+
+    /// Whether it is turned by nothing.
+    fn is_straight(&self) -> bool {
+        (0..3).all(|n| self.axes[n][n] > 1.0 - LEVEL)
+    }
+}
+
+fn rotary(axes: &[Nanos; AXES]) -> [Nanos; 3] {
+    [axes[3], axes[4], axes[5]]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use ncc_exec::world::Tables;
+    use ncc_ir::expr::num::ONE;
+
+    use super::super::path::Path;
+    use super::super::path::tests::path;
+    use super::*;
+
+    const HEAD: &str = "T1 M6\nS900 M3\nG0 X0 Y0\nG43 H1 Z90.\n";
+
+    fn on_plane(blocks: &str) -> Path {
+        path(Tables::default(), &format!("{HEAD}G68.2 X20. Y0 Z-5. I0 J30. K0\n{blocks}"))
+    }
+
+    fn why(path: &Path) -> Option<Unsimulated> {
+        path.unsimulated.map(|(why, _)| why)
+    }
+
+    fn near(one: [f64; 3], other: [f64; 3]) -> bool {
+        one.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-9)
+    }
+
+    /// The place of the plane's X6 Y8 Z`z` on the part.
+    fn place(z: f64) -> [f64; 3] {
+        let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+        [26.0, 8.0 * cos - z * sin, -5.0 + 8.0 * sin + z * cos]
+    }
+
+    const HOLE: &str = "G0 X6. Y8.\nG43 H1 Z50.\nZ2.\nG1 Z-12. F100.\nG0 Z50.\n";
+
+    /// Whatever is stated of the machine, points of a plane are those of the part.
+    #[test]
+    fn points_of_a_plane_are_places_of_the_part() {
+        let tables = Tables {
+            work_offsets: BTreeMap::from([(
+                1,
+                [Some(3 * ONE), Some(-7 * ONE), Some(-400 * ONE), None, None, None],
+            )]),
+            lengths: BTreeMap::from([(1, 100 * ONE)]),
+            ..Tables::default()
+        };
+        for tables in [Tables::default(), tables] {
+            let path = path(tables, &format!("{HEAD}G68.2 X20. Y0 Z-5. I0 J30. K0\nG53.1\n{HOLE}"));
+            assert_eq!(why(&path), None);
+            let moves = &path.moves[path.moves.len() - 5..];
+            let ways = [Way::Away, Way::Rapid, Way::Rapid, Way::Feed, Way::Rapid];
+            // Until Z is stated, it is as high as it ever is.
+            for (own, (z, way)) in moves.iter().zip([50.0, 50.0, 2.0, -12.0, 50.0].into_iter().zip(ways)) {
+                assert!(near(own.end, place(z)) && own.tilt == 1 && own.way == way, "{own:?}");
+            }
+            let axis = path.tilts[0].map(|row| row[2]);
+            assert!(near(axis, [0.0, -0.5, 0.75_f64.sqrt()]) && path.tilts.len() == 1, "{axis:?}");
+            assert!(path.has_unknown_heights);
+        }
+    }
+
+    /// An arc on a plane keeps its centre and its sense along the plane's axes.
+    #[test]
+    fn arcs_are_those_of_the_plane() {
+        let path = on_plane("G53.1\nG0 X6. Y8. Z2.\nG1 Z-12. F100.\nG2 X16. Y18. I10. J0.\n");
+        assert_eq!(why(&path), None);
+        let (from, own) = (path.moves[path.moves.len() - 2], path.moves[path.moves.len() - 1]);
+        let Way::Arc { plane: [0, 1, 2], centre, sweep } = own.way else { panic!("{own:?}") };
+        for at in [from.end, own.end].map(|at| turned_back(&path.tilts[0], at)) {
+            let radius = (at[0] - centre[0]).hypot(at[1] - centre[1]);
+            assert!(
+                (radius - 10.0).abs() < 1e-9 && (sweep + std::f64::consts::FRAC_PI_2).abs() < 1e-9,
+                "{at:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_tool_that_is_not_upright_on_the_plane_is_refused() {
+        assert_eq!(why(&on_plane(HOLE)), Some(Unsimulated::Tilted));
+        let turned = format!("G53.1\nG0 B12.\n{HOLE}");
+        assert_eq!(why(&on_plane(&turned)), Some(Unsimulated::Rotary));
+    }
+
+    /// A place of the machine says nothing of a plane.
+    #[test]
+    fn a_cut_from_a_place_that_nobody_knows_is_refused() {
+        for blocks in [
+            "G53.1\nG0 X6.\nZ2.\nG1 Z-12. F100.\n",
+            "G53.1\nG0 X6. Y8.\nG91 Z2.\nG90 G1 Z-12. F100.\n",
+            "G53.1\nG0 X6. Y8. Z2.\nG53 Z0\nG1 Z-12. F100.\n",
+        ] {
+            assert_eq!(why(&on_plane(blocks)), Some(Unsimulated::Unplaced), "{blocks}");
+        }
+        // What is stated is known, also where the numbers are those from before.
+        let path = on_plane("G53.1\nG0 X0. Y0. Z90.\nG1 Z-12. F100.\n");
+        assert_eq!((why(&path), path.moves.last().map(|own| own.way)), (None, Some(Way::Feed)));
+    }
+
+    /// After a plane the tool is upright again when all rotary axes of the program are where they were.
+    #[test]
+    fn a_plane_must_be_turned_back() {
+        let after = |start: &str, blocks: &str| {
+            let blocks = format!("G53.1\n{HOLE}G69\n{blocks}G1 Z-1. F100.\n");
+            why(&path(Tables::default(), &format!("{start}{HEAD}G68.2 X20. Y0 Z-5. I0 J30. K0\n{blocks}")))
+        };
+        let start = "G0 B0 C0\n";
+        assert_eq!(after(start, "G0 X1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+        assert_eq!(after(start, "G0 B0\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+        assert_eq!(after(start, "G0 B0 C5.\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+        assert_eq!(after(start, "G0 B0 C0\nX1. Y1.\nG43 H1 Z5.\n"), None);
+        assert_eq!(after("", "G53 Z0\nG0 B0\nX1. Y1.\nG43 H1 Z5.\n"), None);
+        assert_eq!(after(start, "G0 B0 C0\nX1.\nG43 H1 Z5.\n"), Some(Unsimulated::Unplaced));
+        assert_eq!(after(start, "G0 B0 C0\nX1. Y1.\n"), Some(Unsimulated::Unplaced));
+        // A plane that is turned by nothing turns it back, too.
+        let level = "G68.2 X0 Y0 Z0 I0 J0 K0\nG53.1\nG0 X1. Y1.\nG43 H1 Z5.\n";
+        assert_eq!(after(start, level), None);
+        assert_eq!(after(start, &format!("{level}G69\nG0 X2. Y2. Z5.\n")), None);
+    }
+
+    /// Upright planes are cut as upright tools cut: moved, and turned about Z.
+    #[test]
+    fn a_plane_that_leans_by_nothing_has_no_tilt() {
+        let blocks = "G53.1\nG0 X6. Y8. Z2.\nG1 Z-1. F100.\nG2 X16. Y18. I10. J0.\n";
+        let path = path(Tables::default(), &format!("{HEAD}G68.2 X20. Y0 Z-5. I90. J0 K0\n{blocks}"));
+        assert_eq!((why(&path), path.tilts.len()), (None, 0));
+        let own = path.moves[path.moves.len() - 1];
+        let Way::Arc { centre, .. } = own.way else { panic!("{own:?}") };
+        // X16 Y8 of the plane, X16 Y18 of the plane.
+        assert!(
+            near([centre[0], centre[1], 0.0], [12.0, 16.0, 0.0]) && near(own.end, [2.0, 16.0, -6.0]),
+            "{own:?}"
+        );
+        // An arc in another plane of it is one of its axes all the same.
+        let path = super::super::path::tests::path(
+            Tables::default(),
+            &format!(
+                "{HEAD}G68.2 X20. Y0 Z-5. I90. J0 K0\nG53.1\nG0 X6. Y8. Z2.\nG1 Z-1. F100.\nG18 G2 X8. Z-3. R2.\n"
+            ),
+        );
+        assert_eq!((why(&path), path.tilts.len(), path.moves.last().map(|own| own.tilt)), (None, 1, Some(1)));
+    }
+}
