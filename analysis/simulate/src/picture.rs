@@ -1,6 +1,8 @@
 //! A part as a picture: seen from above or from a corner, lit from the upper left, each tool in a colour of its own.
 
 use crate::map::HeightMap;
+use crate::ray::Ray;
+use crate::shading::{AROUND, colour, light, shaded};
 
 /// From where a part is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,23 +24,6 @@ pub struct Picture {
     pub pixels: Vec<u8>,
 }
 
-/// Colours of tools, in the order in which they come first: easy to tell apart for people who see few colours (Okabe, Ito).
-pub const COLOURS: [[u8; 3]; 7] = [
-    [0x56, 0xb4, 0xe9],
-    [0xe6, 0x9f, 0x00],
-    [0x00, 0x9e, 0x73],
-    [0xcc, 0x79, 0xa7],
-    [0xf0, 0xe4, 0x42],
-    [0x00, 0x72, 0xb2],
-    [0xd5, 0x5e, 0x00],
-];
-
-/// The colour of what no tool has touched.
-pub const RAW: [u8; 3] = [0xb8, 0xbc, 0xc2];
-
-/// Direction to the light, a unit vector.
-const LIGHT: [f64; 3] = [-0.408_248_3, -0.408_248_3, 0.816_496_6];
-
 /// Draws a part above a level, `most` pixels along the longer side. `tool` says which tool made a move, counted from 0.
 pub fn draw(map: &HeightMap, level: f32, look: Look, most: usize, tool: &dyn Fn(u32) -> usize) -> Picture {
     match look {
@@ -46,30 +31,6 @@ pub fn draw(map: &HeightMap, level: f32, look: Look, most: usize, tool: &dyn Fn(
         Look::Corner => corner(map, level, most, tool),
     }
 }
-
-/// The light on a surface that rises by so much along X and along Y, from 0.25 to 1.
-fn light(rise: [f64; 2]) -> f64 {
-    let normal = [-rise[0], -rise[1], 1.0];
-    let length = (normal[0] * normal[0] + normal[1] * normal[1] + 1.0).sqrt();
-    let towards: f64 = normal.into_iter().zip(LIGHT).map(|(n, l)| n * l).sum();
-    0.25 + 0.75 * (towards / length).max(0.0)
-}
-
-fn shaded(colour: [u8; 3], by: f64) -> [u8; 4] {
-    let [r, g, b] = colour.map(|part| (f64::from(part) * by).round().clamp(0.0, 255.0) as u8);
-    [r, g, b, 255]
-}
-
-fn colour(map: &HeightMap, cell: usize, tool: &dyn Fn(u32) -> usize) -> [u8; 3] {
-    match map.last[cell] {
-        0 => RAW,
-        number => COLOURS[tool(number) % COLOURS.len()],
-    }
-}
-
-/// The slope at a cell is that of the cells up to this many away. A round wall is a staircase on a grid; so it is lit as a round
-/// wall.
-const AROUND: usize = 2;
 
 /// How steeply the surface rises over a cell along both axes. What is below the level counts as the level.
 fn rise(map: &HeightMap, level: f32, column: usize, row: usize) -> [f64; 2] {
@@ -117,7 +78,7 @@ fn plan(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -
 const COS: f64 = 0.866_025_403_784_438_6;
 
 /// Draws the isometric picture, one column of pixels after the other, from the front to the back. A nearer cell hides those
-/// behind it.
+/// behind it; through its hollows they are seen.
 fn corner(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -> Picture {
     let [columns, rows] = map.grid.cells;
     let cell = map.grid.cell;
@@ -139,8 +100,21 @@ fn corner(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize)
         let mut drawn = 0.0_f64;
         let steps = ((end - begin) / (0.5 * cell)).ceil().max(0.0) as usize;
         let mut first = true;
-        for step in 0..=steps {
-            let x = (begin + (end - begin) * step as f64 / steps.max(1) as f64).min(long - 1e-9);
+        // On the left is the front, on the right the right side.
+        let front = if u < 0.0 { 0.45 } else { 0.6 };
+        let step = ((end - begin) / steps.max(1) as f64 * scale).ceil() as usize + 1;
+        let mut ray = (!map.hollows.is_empty()).then(|| Ray {
+            map,
+            level,
+            tool,
+            scale,
+            step,
+            front,
+            is_drawn: vec![false; height],
+            before: None,
+        });
+        for at in 0..=steps {
+            let x = (begin + (end - begin) * at as f64 / steps.max(1) as f64).min(long - 1e-9);
             let y = (x - u).clamp(0.0, deep - 1e-9);
             let [i, j] = [((x / cell) as usize).min(columns - 1), ((y / cell) as usize).min(rows - 1)];
             let own = j * columns + i;
@@ -148,22 +122,19 @@ fn corner(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize)
             let ground = (x + y) * 0.5;
             let seen = (ground + stands) * scale;
             let slope = rise(map, level, i, j);
+            if let Some(ray) = &mut ray {
+                ray.meet([i, j], ground, slope, &mut |line, pixel| {
+                    let at = 4 * ((height - 1 - line) * width + column);
+                    pixels[at..at + 4].copy_from_slice(&pixel);
+                });
+                continue;
+            }
             // The first cell shows a wall of the part down to the level.
             let wall = first || seen - drawn > 3.0 && slope[0] + slope[1] > 2.0;
             let from = if first { ground * scale } else { drawn };
             first = false;
             if stands > 0.0 && seen > from {
-                let by = match wall && step == 0 {
-                    // On the left is the front, on the right the right side.
-                    true => {
-                        if u < 0.0 {
-                            0.45
-                        } else {
-                            0.6
-                        }
-                    }
-                    false => light(slope),
-                };
+                let by = if wall && at == 0 { front } else { light(slope) };
                 let pixel = shaded(colour(map, own, tool), by);
                 let [low, high] = [from, seen].map(|at| (at.round().max(0.0) as usize).min(height));
                 for line in low..high {

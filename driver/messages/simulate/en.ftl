@@ -7,7 +7,7 @@ simulate-of = { $program } ({ $dialect }): { $alarms ->
 simulate-raw = raw part
 simulate-removed = removed
 simulate-under = undercut
-simulate-under-volume = { $volume } mm³ taken under what stays: pictures do not show it
+simulate-under-volume = { $volume } mm³ taken under what stays: a picture shows it from a corner alone
 simulate-planes = planes
 simulate-planes-tilted = the tool stands upright on { $planes ->
         [one] a tilted plane
