@@ -112,10 +112,10 @@ impl Planes {
 
     /// Notes what a block states of rotary axes.
     pub(super) fn note(&mut self, tip: &Tip, event: &Event, upright: [Nanos; 3]) {
-        for axis in 0..3 {
+        for (axis, upright) in upright.into_iter().enumerate() {
             if tip.stated[3 + axis] {
                 self.stated[0][axis] = true;
-                self.stated[1][axis] = event.end[3 + axis] == upright[axis];
+                self.stated[1][axis] = event.end[3 + axis] == upright;
             }
         }
         if self.turned
