@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use ncc_simulate::{
-    AlarmKind, Axes, Cutter, Fixture, HeightMap, Move, Setup, Shape, Simulation, Stock, Tool, Way, turned,
-    turned_back,
+    AlarmKind, Axes, Cutter, Fixture, HeightMap, Look, Move, Setup, Shape, Simulation, Stock, Tool, Way,
+    draw, turned, turned_back,
 };
 
 /// Most that a height may be off at the centre of a cell, mm.
@@ -156,6 +156,23 @@ fn what_is_above_a_bore_is_untouched() {
     assert!(
         map.hollows.iter().count() > 1000 && map.hollows.iter().all(|(cell, _)| map.hollows.last(cell) == 1)
     );
+}
+
+/// Seen from a corner, a bore from the left is an ellipse of its tool's colour, as large as geometry says; from above there is
+/// none.
+#[test]
+fn a_picture_shows_a_bore_from_a_corner() {
+    let done = cut(tool(&Shape::Flat, 8.0), plane(90.0, -90.0), [-5.0, 20.0, -9.0], [25.0, 20.0, -9.0]);
+    let coloured = |look| {
+        let picture = draw(done.map(), -20.0, look, 1000, &|_| 0);
+        let pixels = picture.pixels.chunks(4).filter(|pixel| i32::from(pixel[2]) - i32::from(pixel[0]) > 20);
+        (pixels.count() as f64, picture.width.max(picture.height) as f64)
+    };
+    let cos = 30.0_f64.to_radians().cos();
+    let (pixels, across) = coloured(Look::Corner);
+    let expected = PI * 16.0 * cos * (across / (80.0 * cos)).powi(2);
+    assert!((pixels - expected).abs() < 0.03 * expected, "{pixels} pixels, not {expected}");
+    assert_eq!(coloured(Look::Plan).0, 0.0);
 }
 
 /// A ball that leans cuts as one that does not, as long as only the ball touches.

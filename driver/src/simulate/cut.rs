@@ -3,9 +3,10 @@
 use ncc_ir::source::Span;
 use ncc_simulate::{Alarm, Fixture, Setup, Simulation, Stock, Way};
 
-use super::path::{Path, Unsimulated};
+use super::path::Path;
 use super::raw;
 use super::tooling::Fitted;
+use super::unsimulated::Unsimulated;
 
 /// What is set up on the machine.
 #[derive(Clone, Debug)]

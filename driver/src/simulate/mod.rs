@@ -24,3 +24,4 @@ pub mod raw;
 pub mod surroundings;
 pub mod told;
 pub mod tooling;
+pub mod unsimulated;

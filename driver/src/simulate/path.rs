@@ -18,23 +18,11 @@ use ncc_time::{Timed, path};
 
 use super::comments;
 use super::described::Described;
-use super::planes::{Placed, Planes};
+use super::planes::{Placed, Planes, mm};
+use super::unsimulated::Unsimulated;
 use crate::time::drive::{Said, Sink};
 
 const Z: usize = 2;
-
-/// Why a program cannot be simulated, by its first move of that kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unsimulated {
-    /// It cuts while a rotary axis moves, or with the part turned by one.
-    Rotary,
-    /// It cuts without a tilted plane while the tool, or the part, is turned as one before has turned it.
-    Leaning,
-    /// It cuts on a tilted plane on which it has not turned the tool upright.
-    Tilted,
-    /// It cuts where nobody knows where the tool is, as a plane has come or gone.
-    Unplaced,
-}
 
 /// What a program does with a tool.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -408,77 +396,5 @@ impl Sink for Recorder<'_> {
     }
 }
 
-pub(super) fn mm(nanos: Nanos) -> f64 {
-    nanos as f64 / ONE as f64
-}
-
 #[cfg(test)]
-pub(super) mod tests {
-    use std::io::Cursor;
-
-    use ncc_dialects::{Settings, builtin};
-    use ncc_time::{Machine, Model};
-
-    use super::*;
-    use crate::job::Job;
-    use crate::source::Source;
-    use crate::time::drive::{Plan, Stage, Unwatched, drive};
-
-    /// The path of blocks of a Fanuc behind the usual head.
-    pub(in crate::simulate) fn path(tables: Tables, blocks: &str) -> Path {
-        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
-        let job = Job::new(settings.clone(), settings, "a.nc");
-        let plan = Plan {
-            job: &job,
-            machine: Machine::default(),
-            tables,
-            parameters: [None; 2],
-            model: Model::Ideal,
-            skip: 0,
-            start_time: 0.0,
-            stage: Stage::After,
-            centre: false,
-        };
-        let text = format!("%\nO1\nG21 G17 G90 G94 G40 G49 G80 G54\n{blocks}M30\n%\n");
-        let mut source = Source::of(Cursor::new(text), "a.nc");
-        let mut recorder = Recorder::new(&plan.tables, false);
-        let course = drive(&plan, &mut source, &mut recorder, &mut Unwatched).expect("memory");
-        assert!(!course.refused, "{:?}", course.diagnostics);
-        recorder.finish()
-    }
-
-    fn heights(path: &Path) -> Vec<(Way, f64)> {
-        path.moves.iter().map(|own| (own.way, own.end[Z])).collect()
-    }
-
-    const BLOCKS: &str =
-        "T1 M6\nS100 M3\nG0 X1. Y1.\nG43 H11 Z5.\nG1 Z-1. F100.\nG0 G49 Z5.\nG53 Z0.\nX9.\nG43 H11 Z2.\n";
-
-    /// Where work offset and length are stated, the tip is where it is; the length is that of the tool's own entry.
-    #[test]
-    fn a_place_of_the_machine_is_one_of_the_part_where_both_are_stated() {
-        let length = 100 * ONE;
-        let tables = Tables {
-            work_offsets: BTreeMap::from([(1, [Some(0), Some(0), Some(-400 * ONE), None, None, None])]),
-            lengths: BTreeMap::from([(11, length)]),
-            edge_entries: BTreeMap::from([(1, 11)]),
-            ..Tables::default()
-        };
-        let path = path(tables, BLOCKS);
-        let all: Vec<f64> = heights(&path).iter().map(|own| own.1).collect();
-        // The machine's zero is 400 mm above the part's, and the tool hangs 100 mm down from there. With G49 it is as long.
-        assert_eq!(all, [300.0, 5.0, -1.0, -95.0, 300.0, 300.0, 2.0]);
-        assert!(path.has_unknown_heights);
-    }
-
-    /// Where they are not, nobody knows how high the tool is there, nor at the start.
-    #[test]
-    fn a_place_of_the_machine_says_nothing_of_the_part_where_nothing_is_stated() {
-        let path = path(Tables::default(), BLOCKS);
-        use Way::{Away, Feed, Rapid};
-        let all =
-            [(Away, 5.0), (Rapid, 5.0), (Feed, -1.0), (Rapid, 5.0), (Rapid, 5.0), (Away, 5.0), (Rapid, 2.0)];
-        assert_eq!(heights(&path), all);
-        assert!(path.has_unknown_heights && path.tools[0].number == 1);
-    }
-}
+mod tests;

@@ -11,8 +11,9 @@ use ncc_simulate::{Alarm, AlarmKind, CutterFault, Shape, Stock};
 
 use super::compare::Between;
 use super::cut::{CutProgram, Uncut, Worked};
-use super::path::{Path, Unsimulated, Used};
+use super::path::{Path, Used};
 use super::tooling::{Fitted, Known, NoCutter};
+use super::unsimulated::Unsimulated;
 use crate::problem::{Exit, Problem};
 use crate::render::Loudness;
 use crate::render::human::{MOST, boxed};
