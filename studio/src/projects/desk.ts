@@ -18,6 +18,8 @@ export class Desk {
   list: List | undefined;
   readonly saved = new Signal<TextName>("saved");
   private timer = 0;
+  /** How often the user has asked for a program: what was asked for before, or by nobody, gives way. */
+  private asked = 0;
   /** Tells other tabs which project was saved. */
   private readonly others = typeof BroadcastChannel === "undefined" ? undefined : new BroadcastChannel("ncc-studio");
 
@@ -42,6 +44,7 @@ export class Desk {
 
   /** The project that was open last, or the first program of the folder, or the first example. */
   async begin(): Promise<void> {
+    const { asked } = this;
     if (this.folder && !this.list) {
       this.list = await this.folder.list();
       void this.folder.watch(this.list.stamp, (list) => {
@@ -51,13 +54,13 @@ export class Desk {
       const names = this.list.programs.map((one) => one.name);
       const last = this.store.current && (await this.store.get(this.store.current))?.[0].disk?.name;
       const name = names.find((one) => one === last) ?? names[0];
-      if (name) return this.openProgram(name);
+      if (name) return this.openProgram(name, asked);
     }
-    const found = this.store.current && (await this.store.get(this.store.current));
-    if (found) return this.show(...found);
-    const [last] = await this.store.list();
-    if (last) return this.open(last.id);
-    await this.example(EXAMPLES[0] as Example);
+    const current = this.store.current && (await this.store.get(this.store.current));
+    const [last] = current ? [] : await this.store.list();
+    const found = current || (last && (await this.store.get(last.id)));
+    if (found) return this.show(...found, asked);
+    if (asked === this.asked) await this.example(EXAMPLES[0] as Example, asked);
   }
 
   /** Other programs, by ids and names: of the folder that is served, or the other projects. */
@@ -82,13 +85,14 @@ export class Desk {
   }
 
   async open(id: string): Promise<void> {
+    const asked = ++this.asked;
     await this.save();
     const found = await this.store.get(id);
-    if (found) this.show(...found);
+    if (found) this.show(...found, asked);
   }
 
   /** Opens a program of the folder. What was chosen for it is kept; its text is the file's. */
-  async openProgram(name: string): Promise<void> {
+  async openProgram(name: string, asked = ++this.asked): Promise<void> {
     await this.save();
     const read = await this.folder?.read(name);
     if (!read) return;
@@ -98,20 +102,20 @@ export class Desk {
     const choices = (await this.store.get(id))?.[0].choices ?? made.choices;
     const project: Project = { ...made, id, choices, disk: { name, tag } };
     await this.store.put(project, text);
-    this.show(project, text);
+    this.show(project, text, asked);
   }
 
-  async create(name: string, file: string, bytes: Uint8Array, from = "auto"): Promise<void> {
+  async create(name: string, file: string, bytes: Uint8Array, from = "auto", asked = ++this.asked): Promise<void> {
     await this.save();
     const [project, text] = projectOf(await this.freeName(name), file, bytes);
     project.choices.from = from;
     await this.store.put(project, text);
-    this.show(project, text);
+    this.show(project, text, asked);
   }
 
-  async example(example: Example): Promise<void> {
+  async example(example: Example, asked = ++this.asked): Promise<void> {
     const name = example.file.replace(/\.\w+$/, "");
-    await this.create(name, example.file, new TextEncoder().encode(example.text), example.from);
+    await this.create(name, example.file, new TextEncoder().encode(example.text), example.from, asked);
   }
 
   async duplicate(id: string): Promise<void> {
@@ -221,16 +225,19 @@ export class Desk {
 
   /** Projects of a zip; the last one is open. */
   async unpack(packed: Packed[]): Promise<void> {
+    const asked = ++this.asked;
     for (const { name, file, bytes, answers, choices } of packed) {
       await this.save();
       const [made, text] = projectOf(await this.freeName(name), file, bytes);
       const project: Project = { ...made, ...(choices && { choices }), ...(answers !== undefined && { answers }) };
       await this.store.put(project, text);
-      this.show(project, text);
+      this.show(project, text, asked);
     }
   }
 
-  private show(project: Project, text: string): void {
+  /** Shows a program, unless the user has asked for another meanwhile. */
+  private show(project: Project, text: string, asked: number): void {
+    if (asked !== this.asked) return;
     clearTimeout(this.timer);
     this.store.current = project.id;
     this.saved.set(this.store.keeps ? "saved" : "noStorage");
@@ -244,10 +251,11 @@ export class Desk {
   private async savedElsewhere(id: string): Promise<void> {
     if (id !== this.project?.id) return;
     if (this.saved.get() === "unsaved") return this.saved.set("otherTab");
+    const { asked } = this;
     const found = await this.store.get(id);
     if (found && this.project?.id === id && found[1] !== this.editor.text) {
       const line = this.editor.cursor;
-      this.show(...found);
+      this.show(...found, asked);
       this.editor.goTo(line);
     }
   }
@@ -255,12 +263,13 @@ export class Desk {
   /** A program of the folder was changed by somebody: it is taken over, unless there is a text here that is not saved. */
   private async changedOnDisk(): Promise<void> {
     const disk = this.project?.disk;
+    const { asked } = this;
     const read = disk && (await this.folder?.read(disk.name));
     if (!read || !disk || read[1] === disk.tag || this.project?.disk !== disk) return;
     if (this.saved.get() !== "saved") return this.saved.set("otherDisk");
     const line = this.editor.cursor;
-    await this.openProgram(disk.name);
-    this.editor.goTo(line);
+    await this.openProgram(disk.name, asked);
+    if (asked === this.asked) this.editor.goTo(line);
   }
 
   private async freeName(name: string): Promise<string> {

@@ -23,6 +23,8 @@ export class ProjectsDialog {
   }
 
   async open(): Promise<void> {
+    // What was listed before is not what there is; a file that is taken there would be told in a list that goes.
+    if (!this.dialog.open) this.dialog.replaceChildren();
     await this.fill();
     if (!this.dialog.open) this.dialog.showModal();
   }
