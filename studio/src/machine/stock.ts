@@ -214,8 +214,8 @@ export class StockView {
     this.pick = make(PICK);
   }
 
-  /** Another part, or none. */
-  open(cut: Cut | undefined): void {
+  /** Another part, or none, for a device that draws slowly or may do so. */
+  open(cut: Cut | undefined, slow: boolean): void {
     this.drawn.visible = this.pick.visible = cut !== undefined;
     if (!cut) return;
     const { cells, cell, low } = cut.raw;
@@ -225,7 +225,7 @@ export class StockView {
     this.uniforms.bottom!.value = low[2];
     if (this.cells[0] === cells[0] && this.cells[1] === cells[1]) return;
     // Of many cells few are drawn until it is known how quick the device is.
-    if (this.cells[0] === 0 && Math.max(...cells) > MANY) this.uniforms.stride!.value = 2;
+    if (slow && Math.max(...cells) > MANY) this.uniforms.stride!.value = Math.max(2, this.uniforms.stride!.value as number);
     this.cells = cells;
     const [across, along] = cells;
     for (const [name, Type, format, type] of TEXTURES) {
@@ -237,6 +237,11 @@ export class StockView {
       this.uniforms[name]!.value = texture;
     }
     this.rebuild();
+  }
+
+  /** Cells between two points that are drawn. */
+  get stride(): number {
+    return this.uniforms.stride!.value as number;
   }
 
   /** Fewer points, for a device that draws slowly; false where there are few already. */
