@@ -6,6 +6,7 @@ import type { Between } from "../engine/part";
 import { download, type Desk } from "../projects/desk";
 import { choose, type Choices } from "../projects/project";
 import type { Other, Session, Translation } from "../session";
+import { sideOf } from "../setup/stated";
 import { byId, el, icon } from "../ui/dom";
 import { wireToggle } from "../ui/layout";
 import { figure, say, type TextName } from "../ui/texts";
@@ -71,7 +72,8 @@ export class TranslatePane {
   private other(): Other | undefined {
     const [output, project] = [this.session.translation.get()?.output, this.session.project.get()];
     if (output === undefined || !project) return undefined;
-    const { machineTo: machine, toOption: options } = project.choices;
+    const { toOption: options, to, machineTo } = project.choices;
+    const { machine } = sideOf(to, machineTo, this.session.stated.get()?.to);
     const bytes = new TextEncoder().encode(output);
     return { name: `translated-${project.file}`, bytes, from: this.target(), machine, options };
   }
@@ -79,7 +81,7 @@ export class TranslatePane {
   private target(): string {
     const choices = this.session.project.get()?.choices;
     const machine = this.session.machines.find((one) => one.id === choices?.machineTo);
-    return choices?.to || machine?.dialect || "";
+    return choices?.to || machine?.dialect || (this.session.stated.get()?.to?.dialect ?? "");
   }
 
   private show(translation: Translation | undefined): void {
