@@ -59,7 +59,8 @@ export class ProjectsDialog {
       const current = this.desk.project?.disk?.name === name;
       return el("li", { class: current ? "current" : "" }, el("button", { class: "take", onclick: take }, el("b", {}, name)));
     });
-    return [el("h3", {}, list.folder), el("ul", { id: "folder-list" }, ...rows), el("h3", {}, say("projects"))];
+    const empty = rows.length === 0 ? [el("li", { class: "dim" }, say("folderEmpty"))] : [];
+    return [el("h3", {}, list.folder), el("ul", { id: "folder-list" }, ...rows, ...empty), el("h3", {}, say("projects"))];
   }
 
   private newForm(importing: HTMLElement): HTMLElement {

@@ -64,7 +64,16 @@ export class SetupPane {
     }
     const bench = new Bench(this.desk, this.session.project.get(), this.session.setUp);
     const told = el("p", { id: "setup-told", class: "dim" }, this.session.statedTold || this.desk.setUpTold.get());
-    host.replaceChildren(this.raw(cut), bench.fixtures(cut), ...(this.hasMachine ? [bench.zero()] : []), this.tools(cut), bench.resolution(), told);
+    host.replaceChildren(this.machine(), this.raw(cut), bench.fixtures(cut), ...(this.hasMachine ? [bench.zero()] : []), this.tools(cut), bench.resolution(), told);
+  }
+
+  /** The machine, where the bar above has no room for it. */
+  private machine(): HTMLElement {
+    const chosen = this.session.project.get()?.choices.machine;
+    const all = [{ id: "", title: say("noMachine") }, ...this.session.machines];
+    const list = el("select", { "aria-label": say("machine") }, ...all.map(({ id, title }) => el("option", { value: id, selected: id === chosen }, title)));
+    list.addEventListener("change", () => void this.desk.choose(({ choices }) => (choices.machine = list.value)));
+    return el("section", { class: "phone-only" }, el("h2", {}, say("machine")), list);
   }
 
   /** Whether it is known which machine has the part. */

@@ -48,6 +48,7 @@ export class TranslatePane {
     });
     wireToggle("together", (on) => this.aligned.setTogether(on));
     session.translation.on((translation) => this.show(translation));
+    for (const signal of [session.project, session.stated]) signal.on(() => this.verdict(session.translation.get()));
     let open: string | undefined;
     session.project.on((project) => {
       this.choices();
@@ -105,8 +106,9 @@ export class TranslatePane {
   private verdict(translation: Translation | undefined): void {
     const [text, look] = verdictOf(translation);
     const place = byId("verdict");
-    place.textContent = text ? say(text) : "";
-    place.className = look;
+    const idle = !translation && !this.target();
+    place.textContent = idle ? say("chooseTarget") : text ? say(text) : "";
+    place.className = idle ? "dim" : look;
   }
 
   private question(question: Question): HTMLElement {
