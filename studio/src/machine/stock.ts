@@ -162,6 +162,8 @@ const TEXTURES = [
 
 /** Cells along a side of which a part has many. */
 const MANY = 700;
+/** Cells between two points at most. */
+const COARSEST = 4;
 
 export class StockView {
   readonly drawn: Mesh<BufferGeometry, RawShaderMaterial>;
@@ -225,7 +227,7 @@ export class StockView {
     this.uniforms.bottom!.value = low[2];
     if (this.cells[0] === cells[0] && this.cells[1] === cells[1]) return;
     // Of many cells few are drawn until it is known how quick the device is.
-    if (slow && Math.max(...cells) > MANY) this.uniforms.stride!.value = Math.max(2, this.uniforms.stride!.value as number);
+    if (slow && Math.max(...cells) > MANY) this.uniforms.stride!.value = COARSEST;
     this.cells = cells;
     const [across, along] = cells;
     for (const [name, Type, format, type] of TEXTURES) {
@@ -246,7 +248,7 @@ export class StockView {
 
   /** Fewer points, for a device that draws slowly; false where there are few already. */
   coarser(): boolean {
-    if (this.uniforms.stride!.value >= 4) return false;
+    if (this.uniforms.stride!.value >= COARSEST) return false;
     this.uniforms.stride!.value *= 2;
     this.rebuild();
     return true;
