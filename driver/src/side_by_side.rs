@@ -11,6 +11,8 @@ use std::sync::OnceLock;
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
+use ncc_exec::halt;
+
 /// Hands out the next piece; `None` at the end.
 pub(crate) type Pieces<T> = Box<dyn FnMut() -> Option<T>>;
 
@@ -42,9 +44,10 @@ where
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
     };
+    let [to_first, to_second] = [halt::own(), halt::own()];
     thread::scope(|scope| {
-        let first = scope.spawn(move || first(&mut |piece| send(&to_a, piece)));
-        let second = scope.spawn(move || second(&mut |piece| send(&to_b, piece)));
+        let first = scope.spawn(move || halt::under(to_first, || first(&mut |piece| send(&to_a, piece))));
+        let second = scope.spawn(move || halt::under(to_second, || second(&mut |piece| send(&to_b, piece))));
         let pieces: [Pieces<T>; 2] =
             [Box::new(move || from_a.recv().ok()), Box::new(move || from_b.recv().ok())];
         let compared = compare(pieces);

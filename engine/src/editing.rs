@@ -9,16 +9,15 @@ use std::io::{self, Read, Seek};
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_backends::Numbering;
 use ncc_driver::fmt::whole;
-use ncc_driver::job::project_file;
-use ncc_driver::machines::pair::Machines;
 use ncc_driver::names::{self, rename};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::side::Side;
+use ncc_driver::source::called_files::CalledFile;
 use serde_json::{Value, json};
 
 use crate::colours::column;
-use crate::program::{Files, Outputs, named, open, profile, settings, side};
-use crate::request::{Layout, One, Project, Rename};
+use crate::program::{Files, Outputs, side, side_alone};
+use crate::request::{Called, Layout, One, Rename};
 
 fn all(side: &mut Side, name: &str) -> Result<Vec<u8>, Problem> {
     let mut text = Vec::new();
@@ -35,7 +34,7 @@ pub(crate) fn layout(
 ) -> Result<(Exit, Outputs), Problem> {
     let one = asked.one();
     let cannot = |e: io::Error| Problem::file("read", &one.file, &e);
-    let Side { mut source, mut job } = side(&one, files, messages)?;
+    let Side { mut source, mut job } = side_alone(&one, files, messages)?;
     job.layout.crlf = source.is_crlf()?;
     job.layout.numbering = match asked.number {
         Some([first, step]) => Numbering::Every { first, step },
@@ -51,7 +50,7 @@ pub(crate) fn layout(
 /// The names of a program, whether other files may use them, and for each of their places five numbers: which name, line, first column, the column behind
 /// it, and whether the name gets its meaning there.
 pub(crate) fn names(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
-    let mut side = side(one, files, messages)?;
+    let mut side = side_alone(one, files, messages)?;
     let text = all(&mut side, &one.file)?;
     let found = names::find(&side.job.from, &text);
     let lines = Lines::of(&text);
@@ -70,6 +69,45 @@ pub(crate) fn names(one: &One, files: &Files, messages: &mut Buffer) -> Result<(
     Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }
 
+/// Where a program that another one calls begins.
+pub(crate) fn called(
+    asked: &Called,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
+    let one = asked.one();
+    let mut side = side(&one, files, messages)?;
+    let text = all(&mut side, &one.file)?;
+    let found = names::find(&side.job.from, &text);
+    let byte = Lines::of(&text).byte(&text, asked.line, asked.column);
+    let programs: Vec<_> = found.names.iter().filter(|name| name.sort == names::Sort::Program).collect();
+    let calls: Vec<_> = programs
+        .iter()
+        .flat_map(|name| name.places.iter().map(move |place| (*name, place)))
+        .filter(|(_, place)| place.line as usize == asked.line && !place.defines)
+        .collect();
+    // A sign in front belongs to the name for whoever points at it.
+    let is_there =
+        |(_, place): &&(_, &names::Place)| place.range.start <= byte + 1 && byte <= place.range.end;
+    let here = calls.iter().find(is_there).or(calls.first().filter(|_| calls.len() == 1));
+    let place = here.and_then(|(name, _)| name.places.iter().find(|place| place.defines));
+    let Some(place) = place else { return Ok((Exit::Done, Vec::new())) };
+    let start = place.range.start;
+    let behind = side.source.called.as_ref().map_or(&[][..], |called| &called.files);
+    // One that a file's name alone names has its heading in front of the file's text.
+    let heads = |file: &&CalledFile| {
+        let (from, to) = (file.places.0 as usize, file.places.1 as usize);
+        start < to && (start >= from || text[start..from].iter().filter(|byte| **byte == b'\n').count() == 1)
+    };
+    let line = u64::from(place.line);
+    let (file, line) = match behind.iter().find(heads) {
+        Some(file) => (file.name.as_str(), line.saturating_sub(file.lines_before).max(1)),
+        None => (one.file.as_str(), line),
+    };
+    let document = json!({ "file": file, "line": line });
+    Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
+}
+
 /// Gives a name another, at all its places.
 pub(crate) fn renamed(
     asked: &Rename,
@@ -77,38 +115,11 @@ pub(crate) fn renamed(
     messages: &mut Buffer,
 ) -> Result<(Exit, Outputs), Problem> {
     let one = asked.one();
-    let mut side = side(&one, files, messages)?;
+    let mut side = side_alone(&one, files, messages)?;
     let text = all(&mut side, &one.file)?;
     let place = Lines::of(&text).byte(&text, asked.line, asked.column);
     let written = rename::rename(&side.job, &text, place, &asked.to)?;
     Ok((Exit::Done, vec![("output", written)]))
-}
-
-/// Writes the answers for a program into a project file.
-pub(crate) fn project(
-    asked: &Project,
-    files: &Files,
-    messages: &mut Buffer,
-) -> Result<(Exit, Outputs), Problem> {
-    let mut source = open(&asked.file, false, files, messages)?;
-    let machines = Machines { from: profile(asked.machine_from.as_deref(), files)?, to: None };
-    let (from, rivals) = settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, None)?;
-    if !rivals.is_empty() {
-        return Err(project_file::undecided(&asked.file));
-    }
-    let to = named(asked.to.as_deref())?.map(|dialect| dialect.id.as_str());
-    let text = asked.project.as_ref().and_then(|name| files.get(name)).map(Vec::as_slice).unwrap_or_default();
-    let text = String::from_utf8_lossy(text);
-    let from = project_file::Side {
-        dialect: &from.dialect.id,
-        machine: asked.machine_from.as_deref(),
-        options: &asked.from_option,
-    };
-    let machine = asked.machine_to.as_deref();
-    let to = project_file::Side { dialect: to.unwrap_or_default(), machine, options: &asked.to_option };
-    let to = Some(&to).filter(|to| !to.dialect.is_empty() || to.machine.is_some());
-    let written = project_file::answered(&text, &asked.file, &from, to)?;
-    Ok((Exit::Done, vec![("output", written.into_bytes())]))
 }
 
 /// Where the lines of a text begin.

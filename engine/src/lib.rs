@@ -20,6 +20,7 @@ mod editing;
 #[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
 pub mod interface;
 mod program;
+mod project;
 pub mod request;
 mod simulate;
 mod verbs;

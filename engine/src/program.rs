@@ -8,8 +8,8 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_dialects::{Dialect, Settings};
 use ncc_driver::guess::recognise;
-use ncc_driver::job::Job;
 use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::{Job, project_file};
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
 use ncc_driver::side::Side;
@@ -17,9 +17,12 @@ use ncc_driver::source::include_path::{Library, load_subprograms};
 use ncc_driver::source::{Source, not_milling};
 use ncc_driver::time::drive::{Plan, Stage};
 use ncc_ir::canon::Units;
-use ncc_machines::Profile;
+use ncc_machines::project::{MachineRef, Programs};
 use ncc_machines::reading::Side as Whose;
+use ncc_machines::schema::{Schema, WorkOffsetRow};
+use ncc_machines::{Fact, Profile};
 use ncc_time::{AssumedFact, Model};
+use toml::Spanned;
 
 use crate::request::{self, One};
 
@@ -75,6 +78,51 @@ pub(crate) fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Pr
     profile.map(|profile| Some(Arc::new(profile))).map_err(wrong)
 }
 
+/// What a project file among the files says of a program, if it does.
+pub(crate) fn row(project: Option<&str>, file: &str, files: &Files) -> Result<Option<Programs>, Problem> {
+    let Some(name) = project else { return Ok(None) };
+    let text = files.get(name).ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
+    project_file::row(&String::from_utf8_lossy(text), file)
+}
+
+/// The machine that a request names, or else that of a row of the project file, unless the request names another dialect.
+pub(crate) fn machine(
+    machine: Option<&str>,
+    dialect: Option<&str>,
+    row: Option<&MachineRef>,
+    files: &Files,
+) -> Result<Option<Arc<Profile>>, Problem> {
+    let own = match row.filter(|_| machine.is_none()) {
+        None => return profile(machine, files),
+        Some(MachineRef::Named(name)) => profile(Some(name.get_ref()), files)?,
+        Some(MachineRef::Inline(profile, _)) => Some(Arc::new(Profile::clone(profile))),
+    };
+    let dialect = named(dialect)?;
+    Ok(own.filter(|own| dialect.is_none_or(|dialect| dialect.id == own.dialect.id)))
+}
+
+/// The machine of a program.
+pub(crate) fn machine_of(one: &One, files: &Files) -> Result<Option<Arc<Profile>>, Problem> {
+    let row = row(one.project.as_deref(), &one.file, files)?;
+    let own = row.as_ref().and_then(|row| row.machine.as_ref());
+    let mut machine = machine(one.machine.as_deref(), one.from.as_deref(), own, files)?;
+    if let (Some(machine), Some(zero), Some(number)) = (&mut machine, one.zero, one.datum) {
+        put_zero(&mut Arc::make_mut(machine).schema, number, zero);
+    }
+    Ok(machine)
+}
+
+/// Puts the zero of a work offset into a profile.
+fn put_zero(schema: &mut Schema, number: u32, zero: [f64; 3]) {
+    fn fact<T>(value: T) -> Fact<T> {
+        Fact { value: Some(value), source: String::new(), assumed: false, span: 0..0 }
+    }
+    let [x, y, z] = zero.map(fact);
+    schema.work_offset.retain(|row| row.get_ref().number.get() != Some(number));
+    let row = WorkOffsetRow { number: fact(number), x, y, z, ..WorkOffsetRow::default() };
+    schema.work_offset.push(Spanned::new(0..0, row));
+}
+
 /// A dialect by its name; of no name and of `auto`, none.
 pub(crate) fn named(id: Option<&str>) -> Result<Option<&'static Dialect>, Problem> {
     let dialect = |id: &str| {
@@ -117,15 +165,24 @@ pub(crate) fn unit(units: request::Units) -> Units {
     }
 }
 
-/// A program that is executed.
+/// A program that is executed, with those that it calls.
 pub(crate) fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
+    side_with(one, files, files, messages)
+}
+
+/// The text of a program alone, whatever it calls: for who changes it.
+pub(crate) fn side_alone(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
+    side_with(one, files, &Files::new(), messages)
+}
+
+fn side_with(one: &One, files: &Files, called: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
     let mut source = open(&one.file, one.assume_milling, files, messages)?;
-    let profile = profile(one.machine.as_deref(), files)?;
+    let profile = machine_of(one, files)?;
     let machines = Machines { from: profile.clone(), to: profile };
     let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;
     // What a profile states of its control holds for programs in that control's language.
     let own = machines.from.as_ref().is_some_and(|profile| profile.dialect.id == from.dialect.id);
-    load_subprograms(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
+    load_subprograms(&mut source, &from, &[PathBuf::new()], &InMemory(called))?;
     source.rewind()?;
     let mut side = Side::of(source, from, if own { machines } else { Machines::default() }, None);
     side.job.rivals = rivals;

@@ -37,10 +37,16 @@ pub enum Request {
     Layout(Layout),
     /// Tells names and where they stand. Outputs: `document`, as `editing` has it, `messages`.
     Names(One),
+    /// Tells where a program that this one calls begins. Outputs: `document`: `file`, one of the engine's, and `line`; none
+    /// where no file has it; `messages`.
+    Called(Called),
     /// Gives a name another, at all its places or at none. Outputs: `output`, `messages`.
     Rename(Rename),
-    /// Writes the answers for a program into a project file. Outputs: `output`, `messages`.
+    /// Writes the answers for a program, and its set-up, into a project file. Outputs: `output`, `messages`.
     Project(Project),
+    /// Tells what a project file states of a program. Outputs: `document`, as `stated` has it, and none where it states
+    /// nothing; `messages`.
+    Stated(Stated),
     /// Lists the machines that come with ncc. Output: `document`, a list of objects with `id`, `title` and `dialect`.
     Machines(Nothing),
     /// Executes a program. Outputs: `path`, its moves as columns of numbers (`ncc_driver::simulate::columns`), `modes`, what
@@ -106,6 +112,10 @@ pub struct One {
     /// The machine's profile: the name of one that comes with ncc, or of a file.
     #[serde(default)]
     pub machine: Option<String>,
+    /// The project file among the files of the engine: what its row of the program states holds where the request states
+    /// nothing else.
+    #[serde(default)]
+    pub project: Option<String>,
     /// Choices where the dictionary leaves a question open.
     #[serde(default)]
     pub from_option: BTreeMap<String, String>,
@@ -115,6 +125,13 @@ pub struct One {
     /// Whether it is for a mill, whatever it looks like.
     #[serde(default)]
     pub assume_milling: bool,
+    /// Where the zero of the part lies: X, Y and Z of the work offset in which the program cuts first, machine coordinates in
+    /// mm. It counts with a machine, and goes before its profile.
+    #[serde(default)]
+    pub zero: Option<[f64; 3]>,
+    /// The number of that work offset, once it is known.
+    #[serde(skip)]
+    pub(crate) datum: Option<u32>,
 }
 
 /// A program on a part. Bodies and tools are stated as on the command line.
@@ -131,6 +148,9 @@ pub struct Simulate {
     pub machine: Option<String>,
     /// As of [`One`].
     #[serde(default)]
+    pub project: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
     pub from_option: BTreeMap<String, String>,
     /// As of [`One`].
     #[serde(default)]
@@ -138,6 +158,9 @@ pub struct Simulate {
     /// As of [`One`].
     #[serde(default)]
     pub assume_milling: bool,
+    /// As of [`One`].
+    #[serde(default)]
+    pub zero: Option<[f64; 3]>,
     /// The raw part: `X0:100 Y0:60 Z-20:0`; without, it is guessed.
     #[serde(default)]
     pub stock: Option<String>,
@@ -170,14 +193,28 @@ impl Simulate {
             file: self.file.clone(),
             from: self.from.clone(),
             machine: self.machine.clone(),
+            project: self.project.clone(),
             from_option: self.from_option.clone(),
             units: self.units,
             assume_milling: self.assume_milling,
+            zero: self.zero,
+            datum: None,
         }
     }
 }
 
-/// Answers for a program.
+/// A program in a project file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stated {
+    /// The name of the program's file.
+    pub file: String,
+    /// The project file among the files of the engine.
+    pub project: String,
+}
+
+/// Answers for a program, and its set-up. Of the program's side nothing is written where the request states nothing of it;
+/// `from` may be `auto`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {
@@ -204,6 +241,18 @@ pub struct Project {
     /// As of [`Translate`].
     #[serde(default)]
     pub to_option: BTreeMap<String, String>,
+    /// The raw part, as of [`Simulate`]; an empty text takes it out.
+    #[serde(default)]
+    pub stock: Option<String>,
+    /// What holds it; an empty list takes it out.
+    #[serde(default)]
+    pub fixtures: Option<Vec<String>>,
+    /// Z of the table, mm, in a list; an empty list takes it out.
+    #[serde(default)]
+    pub table: Option<Vec<f64>>,
+    /// Tools, as of [`Simulate`]; one without a shape goes: `4=`.
+    #[serde(default)]
+    pub tools: Vec<String>,
 }
 
 /// A program to be laid out.
@@ -220,6 +269,9 @@ pub struct Layout {
     pub machine: Option<String>,
     /// As of [`One`].
     #[serde(default)]
+    pub project: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
     pub from_option: BTreeMap<String, String>,
     /// First block number, and the step to the next; without, numbers stay as they are or as the machine has them.
     #[serde(default)]
@@ -229,7 +281,42 @@ pub struct Layout {
 impl Layout {
     /// The program alone.
     pub(crate) fn one(&self) -> One {
-        one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
+        One {
+            project: self.project.clone(),
+            ..one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
+        }
+    }
+}
+
+/// A program that a program calls, the other files of the engine in one folder with it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Called {
+    /// As of [`One`].
+    pub file: String,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub machine: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub project: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// A line with a call, from 1.
+    pub line: usize,
+    /// A column of it, in units of UTF-16, from 0: of several calls the one there.
+    pub column: usize,
+}
+
+impl Called {
+    /// The program that calls it.
+    pub(crate) fn one(&self) -> One {
+        let one = one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option);
+        One { project: self.project.clone(), ..one }
     }
 }
 
@@ -247,6 +334,9 @@ pub struct Rename {
     pub machine: Option<String>,
     /// As of [`One`].
     #[serde(default)]
+    pub project: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
     pub from_option: BTreeMap<String, String>,
     /// A line where it stands, from 1.
     pub line: usize,
@@ -259,7 +349,10 @@ pub struct Rename {
 impl Rename {
     /// The program alone.
     pub(crate) fn one(&self) -> One {
-        one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
+        One {
+            project: self.project.clone(),
+            ..one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
+        }
     }
 }
 
@@ -273,9 +366,12 @@ fn one(
         file: file.to_owned(),
         from: from.cloned(),
         machine: machine.cloned(),
+        project: None,
         from_option: options.clone(),
         units: None,
         assume_milling: false,
+        zero: None,
+        datum: None,
     }
 }
 
@@ -318,6 +414,9 @@ pub struct Translate {
     /// The machine to translate for.
     #[serde(default)]
     pub machine_to: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub project: Option<String>,
     /// Choices where the source's dictionary leaves a question open.
     #[serde(default)]
     pub from_option: BTreeMap<String, String>,

@@ -22,8 +22,9 @@ use ncc_driver::time::assumed;
 use ncc_driver::time::drive::{Unwatched, drive};
 use ncc_machines::Profile;
 use ncc_simulate::{Face, Fixture, Stock, covered, faces};
+use toml::Spanned;
 
-use crate::program::{Files, Outputs, plan, profile, side};
+use crate::program::{Files, Outputs, machine_of, plan, row, side};
 use crate::request::{One, Seek, Simulate};
 
 /// The program that was cut last.
@@ -67,7 +68,7 @@ struct Executed {
 /// Executes a program; `None` where it was refused, which has been told.
 fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Executed>, Problem> {
     let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
-    let profile = profile(one.machine.as_deref(), files)?;
+    let profile = machine_of(one, files)?;
     let Side { mut source, job } = side(one, files, messages)?;
     let (plan, unstated) = plan(&job, profile.as_deref());
     let mut recorder = Watched::new(&plan);
@@ -88,6 +89,16 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     let around = Surroundings::of(&path, job.from.dialect, profile.as_deref());
     let dialect = job.from.dialect.id.clone();
     Ok(Some(Executed { path, modes, source, dialect, profile, assumed, around }))
+}
+
+/// A program of which the zero is stated, with the work offset that this is of: a run tells it.
+pub(crate) fn with_datum(one: One, files: &Files) -> Result<One, Problem> {
+    if one.zero.is_none() {
+        return Ok(one);
+    }
+    let executed = execute(&one, files, &mut Buffer::no_color())?;
+    let datum = executed.and_then(|own| own.path.offsets.get(own.path.datum).copied());
+    Ok(One { datum: datum.map(u32::from), ..one })
 }
 
 fn moves(path: &Path) -> Result<Vec<u8>, Problem> {
@@ -127,18 +138,22 @@ pub(crate) fn simulate(
     *kept = None;
     let read = |text: &String| tooling::stated(text).map_err(|_| RequestFault::Tool(text.clone()));
     let stated = asked.tools.iter().map(read).collect::<Result<BTreeMap<_, _>, _>>()?;
+    let row = row(asked.project.as_deref(), &asked.file, files)?;
+    let row = row.as_ref();
+    let stock = asked.stock.as_ref().or(row.and_then(|row| row.stock.as_ref()).map(Spanned::get_ref));
+    let own = row.map(|row| row.fixtures.iter().map(|own| own.get_ref().clone()).collect());
+    let fixtures = own.filter(|_| asked.fixtures.is_empty()).unwrap_or_else(|| asked.fixtures.clone());
     let bench = Bench {
-        guessed: asked.stock.is_none(),
-        stock: asked.stock.as_deref().map(|text| body(text, files)).transpose()?,
-        fixtures: asked
-            .fixtures
+        guessed: stock.is_none(),
+        stock: stock.map(|text| body(text, files)).transpose()?,
+        fixtures: fixtures
             .iter()
             .map(|text| Ok(Fixture { name: text.clone(), shape: body(text, files)? }))
             .collect::<Result<_, Problem>>()?,
-        table: asked.table,
+        table: asked.table.or(row.and_then(|row| row.table.as_ref()).map(|table| *table.get_ref())),
         cells: asked.cells.clamp(16, 8192),
     };
-    let one = asked.one();
+    let one = with_datum(asked.one(), files)?;
     let Some(mut executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
     let (path, modes) = (moves(&executed.path)?, std::mem::take(&mut executed.modes));
     let fitted = tooling::tools(&executed.path, &stated, executed.profile.as_deref())

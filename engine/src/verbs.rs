@@ -31,11 +31,15 @@ use ncc_driver::time::payload::{Header, Payload, Shape};
 use ncc_driver::translate::{rewrite, tools_by_name, translate_recording};
 use ncc_ir::diag::Verdict;
 use ncc_machines::Profile;
+use ncc_machines::project::Programs;
 use ncc_machines::reading::Side as Whose;
 
 use crate::colours;
 use crate::editing;
-use crate::program::{Files, InMemory, Outputs, named, open, pairs, plan, profile, settings, side};
+use crate::program::{
+    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, plan, row, settings, side,
+};
+use crate::project;
 use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};
 use crate::simulate::{self, Kept};
 use crate::words;
@@ -64,7 +68,7 @@ fn verb(
 ) -> Result<(Exit, Outputs), Problem> {
     match request {
         Request::Translate(asked) => translated(asked, files, messages),
-        Request::Check(one) => checked(one, files, messages),
+        Request::Check(one) => checked(&simulate::with_datum(one.clone(), files)?, files, messages),
         Request::Time(one) => timed(one, files, messages),
         Request::Diff(two) => differ(two, files, messages),
         Request::Verify(two) => verified(two, files, messages),
@@ -88,9 +92,11 @@ fn verb(
         }
         Request::Layout(asked) => editing::layout(asked, files, messages),
         Request::Names(one) => editing::names(one, files, messages),
+        Request::Called(asked) => editing::called(asked, files, messages),
         Request::Rename(asked) => editing::renamed(asked, files, messages),
-        Request::Project(asked) => editing::project(asked, files, messages),
-        Request::Path(one) => simulate::path(one, files, messages),
+        Request::Project(asked) => project::project(asked, files, messages),
+        Request::Stated(asked) => project::stated(asked, files),
+        Request::Path(one) => simulate::path(&simulate::with_datum(one.clone(), files)?, files, messages),
         Request::Simulate(asked) => simulate::simulate(asked, files, kept, messages),
         Request::Seek(asked) => simulate::seek(*asked, kept),
         Request::Stl(_) => simulate::stl(kept),
@@ -127,9 +133,12 @@ fn verdicts(names: &[String]) -> Result<Vec<Verdict>, Problem> {
 fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("translate", &asked.file, &e);
     let mut source = open(&asked.file, asked.assume_milling, files, messages)?;
+    let row = row(asked.project.as_deref(), &asked.file, files)?;
+    let [from, to] = [|row: &Programs| row.machine.clone(), |row: &Programs| row.to.clone()]
+        .map(|side| row.as_ref().and_then(side));
     let machines = Machines {
-        from: profile(asked.machine_from.as_deref(), files)?,
-        to: profile(asked.machine_to.as_deref(), files)?,
+        from: machine(asked.machine_from.as_deref(), asked.from.as_deref(), from.as_ref(), files)?,
+        to: machine(asked.machine_to.as_deref(), asked.to.as_deref(), to.as_ref(), files)?,
     };
     let to = named(asked.to.as_deref())?.or(machines.to.as_ref().map(|profile| profile.dialect));
     let to = to.ok_or(RequestFault::NoTarget)?;
@@ -205,7 +214,7 @@ fn coloured(asked: &Colours, files: &Files) -> Result<(Exit, Outputs), Problem> 
 
 fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("read", &one.file, &e);
-    let profile = profile(one.machine.as_deref(), files)?;
+    let profile = machine_of(one, files)?;
     let Side { mut source, job } = side(one, files, messages)?;
     let limits = check::limits(profile.as_deref(), None);
     let course = check::drive::drive(&job, limits, 0, &mut source).map_err(cannot)?;
@@ -219,7 +228,7 @@ fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Out
 
 fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
-    let profile = profile(one.machine.as_deref(), files)?;
+    let profile = machine_of(one, files)?;
     let Side { mut source, job } = side(one, files, messages)?;
     let (plan, _) = plan(&job, profile.as_deref());
     let title = profile.as_deref().map_or("", |profile| &profile.schema.title);

@@ -182,3 +182,83 @@ fn names_that_other_files_may_use_are_marked() {
         names.filter(|name| name["shared"] == true).filter_map(|name| name["text"].as_str()).collect();
     assert_eq!(shared, ["1000", "100", "2000"]);
 }
+
+/// What a project file states holds for each request that names it, and what the request states goes before.
+#[test]
+fn a_project_file_is_read_back() {
+    let project = "[[programs]]\nfiles = \"part.nc\"\nstock = \"X0:40 Y0:40 Z-10:0\"\nfixtures = [\"vise.stl\"]\ntable = -30\n\
+                   to = \"haas-vf2\"\n[programs.machine]\ndialect = \"fanuc\"\noptions = { decimal_point = \"calculator\" }\n\
+                   [[programs.machine.tool]]\nnumber = 1\nshape = \"ball\"\ndiameter = 8\n";
+    let mut engine = Engine::default();
+    engine.put(
+        "part.nc",
+        b"%\nO1\nG21 G17 G90 G94 G54\nT1 M6\nS3000 M3\nG0 X10. Y10. Z5.\nG1 Z-2. F200.\nG0 Z5.\nM30\n%\n"
+            .to_vec(),
+    );
+    engine.put("ncc.toml", project.as_bytes().to_vec());
+    let told =
+        |engine: &Engine| engine.output("messages").map(|text| String::from_utf8_lossy(text).into_owned());
+    let code = engine.run(r#"{ "verb": "stated", "file": "part.nc", "project": "ncc.toml" }"#);
+    assert_eq!(code, 0, "{:?}", told(&engine));
+    let stated: serde_json::Value =
+        serde_json::from_slice(engine.output("document").expect("a document")).expect("JSON");
+    assert_eq!(
+        stated,
+        serde_json::json!({
+            "machine": { "name": null, "dialect": "fanuc", "options": { "decimal_point": "calculator" } },
+            "to": { "name": "haas-vf2", "dialect": "haas", "options": {} },
+            "stock": "X0:40 Y0:40 Z-10:0", "fixtures": ["vise.stl"], "table": -30.0, "files": ["vise.stl"],
+        })
+    );
+    let row = |engine: &Engine| -> serde_json::Value {
+        let document: serde_json::Value =
+            serde_json::from_slice(engine.output("document").expect("a document")).expect("JSON");
+        document["programs"][0].clone()
+    };
+    let request = r#"{ "verb": "simulate", "file": "part.nc", "project": "ncc.toml", "cells": 64, "fixtures": ["X50:60 Y0:40 Z-10:0"] }"#;
+    assert_eq!(engine.run(request), 0, "{:?}", told(&engine));
+    let own = row(&engine);
+    assert_eq!((&own["raw"]["guessed"], &own["raw"]["high"][0]), (&false.into(), &40.0.into()));
+    assert_eq!((&own["tools"][0]["shape"], &own["tools"][0]["known"]), (&"ball".into(), &"profile".into()));
+    let over =
+        request.replace("\"cells\"", "\"stock\": \"X0:60 Y0:40 Z-10:0\", \"from\": \"linuxcnc\", \"cells\"");
+    assert_eq!(engine.run(&over), 0, "{:?}", told(&engine));
+    let own = row(&engine);
+    assert_eq!((&own["raw"]["high"][0], &own["tools"][0]["known"]), (&60.0.into(), &"guess".into()));
+    let code = engine.run(r#"{ "verb": "translate", "file": "part.nc", "project": "ncc.toml" }"#);
+    assert_eq!(code, 0, "{:?}", told(&engine));
+    assert_eq!(engine.run(r#"{ "verb": "stated", "file": "other.nc", "project": "ncc.toml" }"#), 0);
+    assert!(engine.output("document").is_none());
+    engine.put("ncc.toml", b"[[programs]\n".to_vec());
+    assert_eq!(engine.run(r#"{ "verb": "stated", "file": "part.nc", "project": "ncc.toml" }"#), 1);
+}
+
+/// A called program in another file, by its number, by the file's name, and by both.
+#[test]
+fn a_called_program_is_found_in_another_file() {
+    let found = |from: &str, main: &str, line: usize, others: &[(&str, &str)]| {
+        let mut engine = Engine::default();
+        for (name, text) in others.iter().chain(&[("main.nc", main)]) {
+            engine.put(name, text.as_bytes().to_vec());
+        }
+        let code = engine.run(&format!(
+            r#"{{ "verb": "called", "file": "main.nc", "from": "{from}", "line": {line}, "column": 5 }}"#
+        ));
+        let told = String::from_utf8_lossy(engine.output("messages").unwrap_or_default()).into_owned();
+        assert_eq!(code, 0, "{told}");
+        engine.output("document").map(|text| serde_json::from_slice::<Value>(text).expect("JSON"))
+    };
+    let at = |file: &str, line: u64| Some(serde_json::json!({ "file": file, "line": line }));
+    let main = "%\nO1\nG21 G17 G90 G94 G54\nM98 P2000\nM98 P2001\nM98 P3000\nM30\n%\n";
+    let others = [("bores.nc", "%\n(BORES)\nO2000\nG0 X1.\nM99\n%\n"), ("O2001.nc", "G0 X2.\nM99\n")];
+    assert_eq!(found("fanuc", main, 4, &others), at("bores.nc", 3));
+    assert_eq!(found("fanuc", main, 5, &others), at("O2001.nc", 1));
+    assert_eq!(found("fanuc", main, 6, &others), None);
+    let main = "G21 G17 G90 G94 G54\no<bore> call [3]\nM2\n";
+    let others = [("bore.ngc", "; a bore\no<bore> sub\nG0 X#1\no<bore> endsub\n")];
+    assert_eq!(found("linuxcnc", main, 2, &others), at("bore.ngc", 2));
+    let main = "G71 G17 G90 G94 G54\nL300\nBOHREN\nM30\n";
+    let others = [("L300.SPF", "G0 X1\nRET\n"), ("BOHREN.SPF", "; holes\nG0 X2\nRET\n")];
+    assert_eq!(found("siemens", main, 2, &others), at("L300.SPF", 1));
+    assert_eq!(found("siemens", main, 3, &others), at("BOHREN.SPF", 1));
+}

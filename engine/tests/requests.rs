@@ -243,3 +243,28 @@ fn words_of_a_dialect_have_meanings_and_sources() {
     assert!(words.iter().any(|row| !row["refused"].is_null()));
     assert!(document["sources"]["16-C"].is_string());
 }
+
+/// The zero of the part in machine coordinates: where it is stated, the travel of the machine is known around the part, and
+/// what leaves it is found.
+#[test]
+fn the_zero_of_the_part_shows_the_travel() {
+    let text = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG55 G0 X0. Y0. S3000 M3\nG43 H1 Z10.\nG1 Z-2. F300.\nX300.\nG0 Z10.\nM30\n%\n";
+    let mut engine = Engine::default();
+    engine.put("part.nc", text.as_bytes().to_vec());
+    let mut row = |zero: &str| {
+        engine.run(&format!(
+            r#"{{ "verb": "simulate", "file": "part.nc", "machine": "fanuc-vmc", "cells": 64 {zero} }}"#
+        ));
+        let document: serde_json::Value =
+            serde_json::from_slice(engine.output("document").expect("a document")).expect("JSON");
+        let travel = document["programs"][0]["travel"].clone();
+        engine.run(&format!(r#"{{ "verb": "check", "file": "part.nc", "machine": "fanuc-vmc" {zero} }}"#));
+        let findings = String::from_utf8_lossy(engine.output("findings").expect("findings")).into_owned();
+        (travel, findings.contains("NC0801"))
+    };
+    assert_eq!(row(""), (serde_json::Value::Null, false));
+    let (travel, leaves) = row(r#", "zero": [-500, -200, -300]"#);
+    assert_eq!(travel, serde_json::json!([[-500.0, -300.0, -200.0], [500.0, 200.0, 300.0]]));
+    assert!(!leaves);
+    assert!(row(r#", "zero": [-200, -200, -300]"#).1);
+}

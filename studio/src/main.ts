@@ -68,10 +68,10 @@ const editor = new Editor(byId("editor"), {
   rename: () => void editing.rename(),
   layOut: () => void editing.layOut(),
 });
-const editing = new Editing(session, editor);
 const token = loopbackToken();
 const folder = token === undefined ? undefined : new Folder(token);
 const desk = new Desk(await Store.open(), session, editor, folder);
+const editing = new Editing(session, editor, desk);
 const problems = new ProblemList(({ place: { line, column }, time }) => {
   editor.goTo(line, column);
   editor.focus();

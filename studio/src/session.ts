@@ -9,6 +9,7 @@ import { readBetween, readCut, readHeights, type Between, type Cut, type Heights
 import { readPath, type Path } from "./engine/path";
 import { bytesOf, type Choices, type Project } from "./projects/project";
 import { ANSWERS } from "./projects/zip";
+import { setUpOf, sideOf, type SetUp, type Stated } from "./setup/stated";
 import { Signal } from "./ui/signal";
 
 /** What a check has found. */
@@ -60,6 +61,11 @@ export class Session {
   /** The dialect that the program is read in. */
   readonly dialect = new Signal("");
   readonly checked = new Signal<Checked>(NOTHING);
+  /** What the program's `ncc.toml` states, and what the compiler says where that has faults. */
+  readonly stated = new Signal<Stated | undefined>(undefined);
+  statedTold = "";
+  /** Gives a file that lies beside the program. */
+  beside: (name: string) => Promise<Uint8Array | undefined> = () => Promise.resolve(undefined);
   readonly path = new Signal<Path | undefined>(undefined);
   /** Why there is no path, or no part. */
   readonly pathTold = new Signal("");
@@ -81,6 +87,8 @@ export class Session {
   private cutLasted = 0;
   private readonly known = new Map<string, Promise<Words | undefined>>();
   private seeking = false;
+  /** The project file that `stated` tells of, and the program. */
+  private read = "";
   private wantedMoves = Infinity;
   private shownMoves = Infinity;
   /** Texts that the quick engine has, by their files. */
@@ -117,6 +125,8 @@ export class Session {
     this.pathTold.set("");
     this.translation.set(undefined);
     this.dialect.set("");
+    this.statedTold = this.read = "";
+    this.stated.set(undefined);
     this.change();
   }
 
@@ -155,20 +165,42 @@ export class Session {
     const [project, quick] = [this.project.get(), this.engines?.quick];
     if (!project || !quick) return undefined;
     quick.put(project.file, bytesOf(project, this.text()));
-    return quick.run({ verb, ...request(project.file, project.choices), ...more });
+    return quick.run({ verb, ...this.request(project), ...more });
   }
 
-  /** The text of a project file with what was chosen for the program; `answers` is the one that there is. */
-  async answers(answers: string | undefined): Promise<Answer | undefined> {
+  /** The same, with other files beside the text. */
+  async askAmong(files: [id: string, name: string, bytes: Uint8Array][], verb: string, more: Record<string, unknown>): Promise<Answer | undefined> {
+    for (const [, name, bytes] of files) this.engines?.quick.put(name, bytes);
+    return this.ask(verb, more);
+  }
+
+  /** What is set up for the open program: what was chosen, and else what its `ncc.toml` states. */
+  get setUp(): SetUp | undefined {
+    const choices = this.project.get()?.choices;
+    return choices && setUpOf(choices, this.stated.get());
+  }
+
+  /** The text of a project file with what was chosen for the program, or with parts of its set-up alone; `answers` is the one
+   * that there is. */
+  async answers(answers: string | undefined, set?: Partial<SetUp> & { tools?: string[] }): Promise<Answer | undefined> {
     const [project, quick] = [this.project.get(), this.engines?.quick];
     if (!project || !quick) return undefined;
-    const { from, machine, to, machineTo, fromOption, toOption } = project.choices;
+    const { choices } = project;
+    const stated = this.stated.get();
+    const own = sideOf(choices.from, choices.machine, stated?.machine);
+    const target = sideOf(choices.to, choices.machineTo, stated?.to);
     const file = project.disk?.name ?? project.file;
     quick.put(file, bytesOf(project, this.text()));
     if (answers !== undefined) quick.put(ANSWERS, new TextEncoder().encode(answers));
     const known = answers === undefined ? {} : { project: ANSWERS };
-    const sides = given({ from, to, machine_from: machine, machine_to: machineTo });
-    return quick.run({ verb: "project", file, ...known, ...sides, from_option: fromOption, to_option: toOption });
+    const side = { ...given({ from: own.dialect, machine_from: own.machine }), from_option: choices.fromOption };
+    if (set) {
+      const table = set.table === undefined ? {} : { table: set.table ? [Number(set.table)] : [] };
+      // A tool stands with a machine.
+      return quick.run({ verb: "project", file, ...known, ...set, ...table, ...(set.tools && side) });
+    }
+    const to = { ...given({ to: target.dialect, machine_to: target.machine }), to_option: choices.toOption };
+    return quick.run({ verb: "project", file, ...known, ...side, ...to });
   }
 
   /** Cuts the program and its translation from one raw part; what lies between them, or why nobody knows. */
@@ -181,7 +213,7 @@ export class Session {
     heavy.put(file, new TextEncoder().encode(output));
     const { choices } = project;
     const compare = { file, ...given({ from: to, machine: choices.machineTo }), from_option: choices.toOption };
-    const one = { ...request(project.file, choices), ...bench(choices) };
+    const one = { ...this.request(project), ...bench(choices) };
     try {
       const answer = await heavy.run({ verb: "simulate", ...one, cells: this.cells(choices), compare });
       return own === this.generation ? (readBetween(answer) ?? answer.text("messages")) : undefined;
@@ -196,7 +228,7 @@ export class Session {
     const [project, heavy] = [this.project.get(), this.engines?.heavy];
     if (!project || !heavy) return undefined;
     heavy.put(other.name, other.bytes);
-    const one = request(project.file, project.choices);
+    const one = this.request(project);
     const { from, machine, options } = other;
     const b = { file: other.name, ...given({ from, machine }), from_option: options };
     try {
@@ -234,6 +266,7 @@ export class Session {
     try {
       heavy.put(project.file, bytesOf(project, this.text()));
       for (const [name, bytes] of Object.entries(project.bodies ?? {})) heavy.put(name, bytes);
+      await this.readStated(project);
       await this.steps(heavy, project, () => own === this.generation);
       if (own === this.generation) {
         this.lasted = performance.now() - this.began;
@@ -247,26 +280,58 @@ export class Session {
     }
   }
 
+  /** Reads what the program's project file states, where that is another one. */
+  async readStated(project: Project): Promise<void> {
+    const { engines } = this;
+    const key = project.answers === undefined ? "" : `${project.id} ${project.answers}`;
+    if (!engines || key === this.read) return;
+    const ask = async () => {
+      const answer = await engines.quick.run({ verb: "stated", file: project.file, project: ANSWERS });
+      return [answer.json<Stated>("document"), answer.code === 0 ? "" : answer.text("messages").trim()] as const;
+    };
+    const put = (name: string, bytes: Uint8Array) => [engines.quick, engines.heavy].forEach((one) => one.put(name, bytes));
+    let [stated, told]: readonly [Stated | undefined, string] = [undefined, ""];
+    if (project.answers !== undefined) {
+      put(ANSWERS, new TextEncoder().encode(project.answers));
+      [stated, told] = await ask();
+      const files = await Promise.all((stated?.files ?? []).map(async (name) => [name, await this.beside(name)] as const));
+      const found = files.filter((file): file is readonly [string, Uint8Array] => file[1] !== undefined);
+      found.forEach(([name, bytes]) => put(name, bytes));
+      if (found.length > 0) [stated, told] = await ask();
+    }
+    if (project.id !== this.project.get()?.id) return;
+    this.read = key;
+    this.statedTold = told;
+    this.stated.set(stated);
+  }
+
+  /** Fields of a program that is executed. */
+  private request({ file, choices }: Project): Omit<Request, "verb"> {
+    const { from, machine, fromOption } = choices;
+    const project = this.stated.get() ? ANSWERS : "";
+    return { file, ...given({ from, machine, project }), from_option: fromOption };
+  }
+
   private async steps(heavy: Engine, project: Project, current: () => boolean): Promise<void> {
-    const one = request(project.file, project.choices);
+    const one = this.request(project);
     if (this.cutLasted > SLOW) {
       // A part that takes its time comes later: until then the one before stands with the new path.
-      const answer = await heavy.run({ verb: "path", ...one });
+      const answer = await heavy.run({ verb: "path", ...one, ...zero(project.choices) });
       const bytes = answer.bytes("path");
       if (!current()) return;
       if (bytes) this.path.set(readPath(bytes, answer.bytes("modes")));
     }
-    const check = await heavy.run({ verb: "check", ...one });
+    const check = await heavy.run({ verb: "check", ...one, ...zero(project.choices) });
     if (!current()) return;
     this.tellCheck(check);
     const began = performance.now();
-    const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), cells: this.cells(project.choices) });
+    const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), ...zero(project.choices), cells: this.cells(project.choices) });
     this.cutLasted = performance.now() - began;
     if (!current()) return;
     this.tellCut(cut);
     if (!this.translates.get()) return this.translation.set(undefined);
-    if (!project.choices.to && !project.choices.machineTo) return this.translation.set(undefined);
-    const translated = await heavy.run({ verb: "translate", ...translation(project.file, project.choices), map: true });
+    if (!project.choices.to && !project.choices.machineTo && !this.stated.get()?.to) return this.translation.set(undefined);
+    const translated = await heavy.run({ verb: "translate", ...one, ...translation(project.choices), map: true });
     if (!current()) return;
     const output = translated.bytes("output");
     this.translation.set({
@@ -329,25 +394,18 @@ function given(entries: Record<string, string | undefined>): Record<string, stri
   return Object.fromEntries(Object.entries(entries).filter(([, value]) => value)) as Record<string, string>;
 }
 
-/** Fields of a program that is executed. */
-function request(file: string, choices: Choices): Omit<Request, "verb"> {
-  const { from, machine, fromOption } = choices;
-  return { file, ...given({ from, machine }), from_option: fromOption };
-}
-
 /** Fields of what it cuts, and with what. */
-function bench({ stock, tools, fixtures }: Choices): { stock?: string; tools: string[]; fixtures: string[] } {
+function bench({ stock, tools, fixtures, table }: Choices): Record<string, unknown> {
   const stated = Object.entries(tools).map(([number, text]) => `${number}=${text}`);
-  return { ...given({ stock }), tools: stated, fixtures };
+  return { ...given({ stock }), tools: stated, fixtures, ...(table && { table: Number(table) }) };
 }
 
-function translation(file: string, choices: Choices): Omit<Request, "verb"> {
-  const { from, machine, to, machineTo, fromOption, toOption, pass } = choices;
-  return {
-    file,
-    ...given({ from, to, machine_from: machine, machine_to: machineTo }),
-    from_option: fromOption,
-    to_option: toOption,
-    pass,
-  };
+/** Where the zero of the part lies on the machine. */
+function zero({ zero }: Choices): { zero?: number[] } {
+  return zero.length === 3 ? { zero: zero.map(Number) } : {};
+}
+
+/** Fields of a translation; the machine of the program has another name there. */
+function translation({ to, machine, machineTo, toOption, pass }: Choices): Record<string, unknown> {
+  return { machine: undefined, ...given({ to, machine_from: machine, machine_to: machineTo }), to_option: toOption, pass };
 }

@@ -27,9 +27,9 @@ export async function begin() {
   return { site, binary, browser, end };
 }
 
-/** A page in a world of its own. `faults` are errors that it told: each is a failure. */
+/** A page in a world of its own. `early` is done before the page is ready. `faults` are errors that it told: each is a failure. */
 export async function open({ site, binary, browser }, options = {}) {
-  const { host = "worker", address, width = 1280, height = 800, path = "", context: given, script, ...rest } = options;
+  const { host = "worker", address, width = 1280, height = 800, path = "", context: given, script, early, ...rest } = options;
   const context =
     given ?? (await browser.newContext({ viewport: { width, height }, locale: "en-US", acceptDownloads: true, ...rest }));
   const page = await context.newPage();
@@ -38,6 +38,7 @@ export async function open({ site, binary, browser }, options = {}) {
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   if (script) await page.addInitScript(script);
   await page.goto(address ?? (host === "worker" ? site.url + path : binary.address));
+  await early?.(page);
   await ready(page);
   return { page, context, faults };
 }

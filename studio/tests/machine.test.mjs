@@ -299,6 +299,24 @@ both("many moves are lines for several where the device draws slowly, and a clic
   assert.ok(Math.hypot(seen[0] - at[0], seen[1] - at[1]) < 8, `${seen} for ${at}`);
 });
 
+page("how fine the device can draw is known from the first pictures, before anybody seeks", {}, async (own) => {
+  const before = Number(await data(own, "frames"));
+  await type(own, long(310_000));
+  await own.waitForFunction((count) => Number(document.querySelector("#canvas").dataset.frames) >= count + 3, before);
+  await own.waitForTimeout(2500);
+  const fineness = await data(own, "fineness");
+  const frames = Number(await data(own, "frames"));
+  for (const share of [0.5, 0.1, 0.9]) {
+    await own.locator("#scrub").evaluate((scrub, at) => {
+      scrub.value = String(at * scrub.max);
+      scrub.dispatchEvent(new Event("input", { bubbles: true }));
+    }, share);
+    await own.waitForTimeout(1200);
+  }
+  assert.ok(Number(await data(own, "frames")) > frames);
+  assert.equal(await data(own, "fineness"), fineness);
+});
+
 const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };
 for (const [name, options] of [["wide and light", {}], ["wide and dark", { colorScheme: "dark" }], ["a phone", PHONE]]) {
   page(`axe finds nothing in the cards and the plan: ${name}`, options, async (own) => {

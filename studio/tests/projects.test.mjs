@@ -60,3 +60,34 @@ page("a zip of programs makes a project of each, and what is no zip is told", {}
   await own.locator("#projects-dialog .wrong", { hasText: "broken.zip" }).waitFor();
   assert.equal(await value(own, "#project-name"), "b");
 });
+
+/** The first list of projects comes late: the example that opens by itself waits for it. */
+const LATE = `{
+  const own = IDBObjectStore.prototype.getAll;
+  let first = true;
+  IDBObjectStore.prototype.getAll = function (...given) {
+    const request = own.apply(this, given);
+    if (!first) return request;
+    first = false;
+    return {
+      set onsuccess(done) { request.onsuccess = () => setTimeout(() => (done(), (window.isLate = true)), 2500); },
+      set onerror(failed) { request.onerror = failed; },
+      get result() { return request.result; },
+    };
+  };
+}`;
+
+both("a program that is taken while the page opens stays, though the example comes later", {
+  script: LATE,
+  early: async (own) => {
+    await take(own, "early.zip", zipSync({ "early.nc": strToU8(SQUARE) }));
+    await own.waitForFunction(() => window.isLate);
+  },
+}, async (own) => {
+  await own.waitForTimeout(300);
+  assert.equal(await value(own, "#project-name"), "early");
+  assert.match(await own.locator("#editor .cm-content").textContent(), /SQUARE/);
+  await own.click("#projects-open");
+  await own.locator("#projects-list b").first().waitFor();
+  assert.deepEqual(await own.locator("#projects-list b").allTextContents(), ["early"]);
+});

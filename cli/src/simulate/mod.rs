@@ -19,7 +19,7 @@ use ncc_driver::job::Output;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::render::{Loudness, Told};
 use ncc_driver::simulate::compare::Between;
-use ncc_driver::simulate::cut::{Bench, CutProgram, Uncut, cut};
+use ncc_driver::simulate::cut::{Bench, CutProgram, cut};
 use ncc_driver::simulate::document::{self, About};
 use ncc_driver::simulate::path::Recorder;
 use ncc_driver::simulate::surroundings::Surroundings;
@@ -276,7 +276,7 @@ fn carry_out(
     let dialect = job.from.dialect.id.clone();
     match cut(path, tools, bench) {
         Ok(cut) => Ok(Some(Done { cut, source, dialect, assumed, around })),
-        Err(uncut @ (Uncut::Unsimulated(..) | Uncut::NoCut)) => {
+        Err(uncut) => {
             let shown = source.shown.clone();
             match told::write_refusal(err, uncut, &mut source)
                 .map_err(|e| Problem::file("read", &shown, &e))?

@@ -1,4 +1,5 @@
-//! The answers for one program, written into a project file: all else of the file stays as it is, to the byte.
+//! The answers for one program and its set-up, written into a project file: all else of the file stays as it is, to the
+//! byte.
 //!
 //! ```text
 //! part.nc, fanuc, decimal_point = calculator    →    [[programs]]
@@ -12,10 +13,12 @@
 
 use std::collections::BTreeMap;
 
-use ncc_machines::project::{NAME, Project};
-use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, value};
+use ncc_machines::project::{NAME, Programs, Project};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, value};
 
 use crate::problem::{Exit, Problem, problem};
+use crate::simulate::described::Shaped;
+use crate::simulate::tooling;
 
 /// What is answered of one side.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +29,19 @@ pub struct Side<'a> {
     pub machine: Option<&'a str>,
     /// Options of the dialect.
     pub options: &'a BTreeMap<String, String>,
+}
+
+/// The set-up of a program, as far as it is stated anew: `None` leaves a key as it is, an empty value takes it out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SetUp<'a> {
+    /// The raw part, as the command line has it.
+    pub stock: Option<&'a str>,
+    /// What holds it, likewise.
+    pub fixtures: Option<&'a [String]>,
+    /// Z of the table, mm.
+    pub table: Option<Option<f64>>,
+    /// Tools, as the command line has them; of one without a shape the row goes: `4=`.
+    pub tools: &'a [String],
 }
 
 fn refused(form: &'static str, program: &str) -> Problem {
@@ -46,11 +62,28 @@ fn pattern(program: &str) -> String {
     program.chars().map(plain).collect()
 }
 
-/// The text of a project file with the answers for one program; `text` is empty where there is no file yet.
+/// What a project file says of a program, if it does.
+///
+/// # Errors
+/// The file has faults, or two of its rows are about the program.
+pub fn row(text: &str, program: &str) -> Result<Option<Programs>, Problem> {
+    let faulty = || refused("project-faulty", program);
+    let mut project = Project::parse(text, &ncc_dialects::builtin).map_err(|_| faulty())?;
+    Ok(project.row(program).map_err(|_| faulty())?.map(|at| project.rows.swap_remove(at)))
+}
+
+/// The text of a project file with the answers for one program; `text` is empty where there is no file yet. Without `from`
+/// the row's machine stays as it is.
 ///
 /// # Errors
 /// The file has faults, or what it says of the program is about others too, or cannot hold the answers.
-pub fn answered(text: &str, program: &str, from: &Side, to: Option<&Side>) -> Result<String, Problem> {
+pub fn answered(
+    text: &str,
+    program: &str,
+    from: Option<&Side>,
+    to: Option<&Side>,
+    set_up: &SetUp,
+) -> Result<String, Problem> {
     let faulty = || refused("project-faulty", program);
     let mut document: DocumentMut = text.parse().map_err(|_| faulty())?;
     let at = match text.trim().is_empty() {
@@ -75,9 +108,13 @@ pub fn answered(text: &str, program: &str, from: &Side, to: Option<&Side>) -> Re
     if row.get("files").and_then(Item::as_str).is_none_or(|files| !files.eq_ignore_ascii_case(&own)) {
         return Err(refused("project-shared", program));
     }
-    put(row, "machine", from).map_err(|()| refused("project-named", program))?;
-    if let Some(to) = to {
-        put(row, "to", to).map_err(|()| refused("project-named", program))?;
+    for (key, side) in [("machine", from), ("to", to)] {
+        let Some(side) = side else { continue };
+        put(row, key, side).map_err(|()| refused("project-named", program))?;
+    }
+    put_set_up(row, set_up);
+    if !set_up.tools.is_empty() {
+        put_tools(row, set_up.tools).map_err(|()| refused("project-named", program))?;
     }
     let written = document.to_string();
     // It says of the program what it should, and is sound.
@@ -110,6 +147,83 @@ fn put(row: &mut Table, key: &str, side: &Side) -> Result<(), ()> {
     Ok(())
 }
 
+fn put_set_up(row: &mut Table, set_up: &SetUp) {
+    let mut put = |key: &str, own: Option<Item>| match own {
+        Some(own) => drop(row.insert(key, own)),
+        None => drop(row.remove(key)),
+    };
+    if let Some(stock) = set_up.stock {
+        put("stock", (!stock.is_empty()).then(|| value(stock)));
+    }
+    if let Some(fixtures) = set_up.fixtures {
+        let all: Array = fixtures.iter().map(String::as_str).collect();
+        put("fixtures", (!fixtures.is_empty()).then(|| value(all)));
+    }
+    if let Some(table) = set_up.table {
+        put("table", table.map(value));
+    }
+}
+
+/// What a row of a tool has of its shape.
+const SHAPE: [&str; 9] =
+    ["shape", "diameter", "corner", "angle", "end_diameter", "flute", "shank", "holder", "holder_from"];
+
+/// Puts tools into the machine of a row; a profile that is named has its own.
+fn put_tools(row: &mut Table, tools: &[String]) -> Result<(), ()> {
+    let machine = row.get_mut("machine").and_then(Item::as_table_mut).ok_or(())?;
+    let all = machine.entry("tool").or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
+    let all = all.as_array_of_tables_mut().ok_or(())?;
+    for text in tools {
+        let (number, shape) = text.split_once('=').ok_or(())?;
+        let number: i64 = number.parse().map_err(|_| ())?;
+        let is_own = |tool: &Table| tool.get("number").and_then(Item::as_integer) == Some(number);
+        let at = all.iter().position(is_own);
+        if shape.is_empty() {
+            let Some(at) = at else { continue };
+            let tool = all.get_mut(at).ok_or(())?;
+            SHAPE.iter().for_each(|key| drop(tool.remove(key)));
+            if tool.len() == 1 {
+                all.remove(at);
+            }
+            continue;
+        }
+        let (_, described) = tooling::stated(text).map_err(|_| ())?;
+        let tool = match at {
+            Some(at) => all.get_mut(at).ok_or(())?,
+            None => {
+                let mut tool = Table::new();
+                tool.insert("number", value(number));
+                all.push(tool);
+                all.get_mut(all.len().saturating_sub(1)).ok_or(())?
+            }
+        };
+        let named = shape.split(',').next().unwrap_or_default();
+        if tool.get("shape").and_then(Item::as_str).is_some_and(|own| own != named) {
+            ["corner", "angle", "end_diameter"].iter().for_each(|key| drop(tool.remove(key)));
+        }
+        tool.insert("shape", value(named));
+        let of_shape = |of: fn(&Shaped) -> Option<f64>| described.shape.as_ref().and_then(of);
+        for (key, length) in [
+            ("diameter", described.diameter),
+            ("corner", of_shape(|own| own.corner)),
+            ("angle", of_shape(|own| own.angle)),
+            ("end_diameter", of_shape(|own| own.end_diameter)),
+            ("flute", described.flute),
+            ("shank", described.shank),
+            ("holder", described.holder),
+            ("holder_from", described.holder_from),
+        ] {
+            if let Some(length) = length {
+                tool.insert(key, value(length));
+            }
+        }
+    }
+    if all.is_empty() {
+        machine.remove("tool");
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,7 +234,12 @@ mod tests {
             chosen.iter().map(|(name, own)| ((*name).to_owned(), (*own).to_owned())).collect();
         let from = Side { dialect: "fanuc", machine: None, options: &options };
         let to = Side { dialect: "siemens", machine: None, options: &none };
-        answered(text, "part.nc", &from, Some(&to))
+        answered(text, "part.nc", Some(&from), Some(&to), &SetUp::default())
+    }
+
+    /// Of no side, with a set-up.
+    fn set_up(text: &str, set_up: &SetUp) -> Result<String, Problem> {
+        answered(text, "part.nc", None, None, set_up)
     }
 
     const ROW: &str = "[[programs]]\nfiles = \"part.nc\"\n\n[programs.machine]\ndialect = \"fanuc\"\n\
@@ -146,5 +265,45 @@ mod tests {
         for text in [shared, "[[programs]\n", "[[programs]]\nfiles = 7\n"] {
             assert!(written(text, &[]).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn a_set_up_is_put_in_and_taken_out() {
+        let fixtures = ["D20 X5 Y5 Z0:10".to_owned()];
+        let own = SetUp {
+            stock: Some("X0:10 Y0:10 Z-5:0"),
+            fixtures: Some(&fixtures),
+            table: Some(Some(-20.5)),
+            tools: &[],
+        };
+        let text = set_up("", &own).expect("written");
+        assert_eq!(
+            text,
+            "[[programs]]\nfiles = \"part.nc\"\nstock = \"X0:10 Y0:10 Z-5:0\"\nfixtures = [\"D20 X5 Y5 Z0:10\"]\n\
+             table = -20.5\n"
+        );
+        let own = row(&text, "part.nc").expect("sound").expect("a row");
+        assert_eq!(own.table.map(toml::Spanned::into_inner), Some(-20.5));
+        let none = SetUp { stock: Some(""), fixtures: Some(&[]), table: Some(None), tools: &[] };
+        assert_eq!(set_up(&text, &none).as_deref(), Ok("[[programs]]\nfiles = \"part.nc\"\n"));
+        assert!(row(&text, "other.nc").is_ok_and(|row| row.is_none()));
+    }
+
+    #[test]
+    fn tools_go_into_the_machine_of_the_row() {
+        let tools = |all: &[&str]| all.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+        let text = written("", &[]).expect("written");
+        let put = |text: &str, all: &[&str]| set_up(text, &SetUp { tools: &tools(all), ..SetUp::default() });
+        let with = put(&text, &["4=drill,6.8,angle=118", "5=flat,10"]).expect("written");
+        let rows = "\n[[programs.machine.tool]]\nnumber = 4\nshape = \"drill\"\ndiameter = 6.8\nangle = 118.0\n\
+            \n[[programs.machine.tool]]\nnumber = 5\nshape = \"flat\"\ndiameter = 10.0\n";
+        assert!(with.contains(rows), "{with}");
+        let other = put(&with, &["4=ball,8", "5="]).expect("written");
+        assert!(
+            other.contains("number = 4\nshape = \"ball\"\ndiameter = 8.0\n") && !other.contains("number = 5")
+        );
+        assert_eq!(put(&other, &["4="]).as_deref(), Ok(text.as_str()));
+        let named = "[[programs]]\nfiles = \"part.nc\"\nmachine = \"haas-vf2\"\n";
+        assert!(put(named, &["4=ball,8"]).is_err());
     }
 }

@@ -1,5 +1,6 @@
 //! A program cut: its moves through the kernel, and what each tool did.
 
+use ncc_exec::halt;
 use ncc_ir::source::Span;
 use ncc_simulate::{Alarm, Fixture, Setup, Simulation, Stock, Way};
 
@@ -30,7 +31,12 @@ pub enum Uncut {
     Unsimulated(Unsimulated, Span),
     /// It cuts nothing, so that no raw part can be guessed.
     NoCut,
+    /// The host asked the work to stop, before the move of a line.
+    Halted(u32),
 }
+
+/// So many moves are cut between two looks at whether the work shall stop.
+const STRETCH: usize = 64;
 
 /// What a tool did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,7 +84,10 @@ pub fn cut(mut path: Path, tools: Vec<Fitted>, bench: Bench) -> Result<CutProgra
     });
     let mut worked = vec![Worked::default(); tools.len()];
     // The kernel keeps them.
-    for (own, begin) in std::mem::take(&mut path.moves).into_iter().zip(&path.begins) {
+    for (at, (own, begin)) in std::mem::take(&mut path.moves).into_iter().zip(&path.begins).enumerate() {
+        if at % STRETCH == 0 && halt::is_asked() {
+            return Err(Uncut::Halted(own.line));
+        }
         simulation.push(own);
         let removed = simulation.removed()[simulation.shown() - 1];
         let work = &mut worked[own.tool];

@@ -21,6 +21,7 @@ use crate::render::messages::message::{Help, Message, Part};
 use crate::render::source::{Excerpt, Lines};
 use crate::render::{Place, Told};
 use crate::source::Source;
+use crate::source::interrupted::Interrupted;
 use crate::time::drive::Course;
 use crate::time::duration;
 
@@ -190,9 +191,16 @@ pub fn write_refusal(
     uncut: Uncut,
     source: &mut Source,
 ) -> io::Result<Option<Problem>> {
-    let Uncut::Unsimulated(why, span) = uncut else {
-        let message = words("no-cut").text("program", source.shown.clone());
-        return Ok(Some(Problem::of(Exit::Refused, &message, None)));
+    let (why, span) = match uncut {
+        Uncut::Unsimulated(why, span) => (why, span),
+        Uncut::NoCut => {
+            let message = words("no-cut").text("program", source.shown.clone());
+            return Ok(Some(Problem::of(Exit::Refused, &message, None)));
+        }
+        Uncut::Halted(line) => {
+            let error = io::Error::other(Interrupted { line: Some(u64::from(line)) });
+            return Ok(Some(Problem::file("read", &source.shown, &error)));
+        }
     };
     let message = match why {
         Unsimulated::Rotary => Message::new(NOT_SIMULATED),

@@ -15,6 +15,7 @@
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
+use ncc_exec::halt;
 use ncc_ir::canon::Modes;
 use ncc_ir::program::Stmt;
 use ncc_ir::program::line_table::LineTable;
@@ -75,9 +76,10 @@ impl Beside {
         let (hand, handed) = channel();
         let (steps, to_do) = sync_channel(AHEAD);
         let (done, spare) = channel();
+        let own = halt::own();
         let work = move || {
             let mut verifier: Verifier = handed.recv().expect("the first thread hands it over");
-            let result = work(&mut verifier, &to_do, &done);
+            let result = halt::under(own, || work(&mut verifier, &to_do, &done));
             (verifier, result)
         };
         let thread = Builder::new().stack_size(STACK).spawn(work);

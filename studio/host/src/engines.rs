@@ -7,6 +7,7 @@ use axum::body::Bytes;
 use axum::extract::{Path, State};
 use axum::http::StatusCode;
 use ncc_engine::Engine;
+use ncc_exec::halt::{self, Halt};
 
 use crate::Shared;
 
@@ -62,14 +63,29 @@ pub(crate) async fn keep(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Does a request.
+/// Asks the work of a request to stop when nobody waits for its answer: then the request is dropped with what it holds.
+struct Waiting(Halt);
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.ask();
+    }
+}
+
+/// Does a request, for as long as its connection is there.
 pub(crate) async fn run(
     State(shared): State<Arc<Shared>>,
     Path(room): Path<String>,
     request: Bytes,
 ) -> Result<Vec<u8>, StatusCode> {
     let request = String::from_utf8(request.to_vec()).map_err(|_| StatusCode::BAD_REQUEST)?;
-    with(&shared, &room, move |engine| answer(engine, &request)).await
+    let waiting = Waiting(Halt::default());
+    let halt = waiting.0.clone();
+    with(&shared, &room, move |engine| match halt.is_asked() {
+        true => Vec::new(),
+        false => halt::under(Some(halt), || answer(engine, &request)),
+    })
+    .await
 }
 
 /// A line of JSON, then the outputs.

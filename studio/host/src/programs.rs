@@ -23,6 +23,9 @@ const LARGEST: u64 = 256 << 20;
 /// Programs that are listed at most.
 const MOST: usize = 10_000;
 
+/// The project file.
+const PROJECT: &str = "ncc.toml";
+
 /// How long a request waits for a change.
 const PATIENCE: Duration = Duration::from_secs(20);
 
@@ -32,7 +35,7 @@ const GLANCE: Duration = Duration::from_millis(300);
 /// What may be read and written.
 pub(crate) struct Programs {
     folder: PathBuf,
-    /// The only one, where a file was named.
+    /// The only one, where a file was named; its project file goes with it.
     only: Option<String>,
 }
 
@@ -74,7 +77,7 @@ impl Programs {
     /// Where a program is, if its name is one of a file in the folder.
     fn path(&self, name: &str) -> Option<PathBuf> {
         let plain = !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\', ':', '\0']);
-        let known = self.only.as_ref().is_none_or(|only| only == name);
+        let known = self.only.as_ref().is_none_or(|only| only == name || name == PROJECT);
         (plain && known).then(|| self.folder.join(name))
     }
 

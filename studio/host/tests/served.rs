@@ -5,6 +5,7 @@ use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use ncc_studio::Studio;
 
@@ -210,4 +211,35 @@ fn nobody_else_gets_in() {
     let statuses: Vec<u16> =
         (0..40).map(|n| server.ask("POST", &format!("/engine/r{n}/run"), "", b"{}").0).collect();
     assert!(statuses[..8].iter().all(|status| *status == 200) && statuses[39] == 429, "{statuses:?}");
+}
+
+/// Blocks of a loop that takes minutes.
+const ENDLESS: &str =
+    "%\nO1\nG21 G17 G90 G94 G54\n#1=0\nWHILE[#1LT900000000]DO1\nG1 X[#1/1000] F500.\n#1=#1+1\nEND1\nM30\n%\n";
+
+#[test]
+fn a_request_whose_connection_is_gone_stops() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let server = Server::of(folder.path());
+    for (name, text) in [("endless.nc", ENDLESS), ("part.nc", PART)] {
+        assert_eq!(server.ask("PUT", &format!("/engine/heavy/files/{name}"), "", text.as_bytes()).0, 204);
+    }
+    for verb in ["check", "simulate", "time"] {
+        let request = format!(r#"{{ "verb": "{verb}", "file": "endless.nc", "from": "fanuc" }}"#);
+        let head = format!(
+            "POST /engine/heavy/run HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\nContent-Length: {}\r\n\r\n{request}",
+            server.port,
+            server.token,
+            request.len()
+        );
+        let mut stream = TcpStream::connect(("127.0.0.1", server.port)).expect("a connection");
+        stream.write_all(head.as_bytes()).expect("sent");
+        thread::sleep(Duration::from_millis(300));
+        drop(stream);
+        // The room is free again: the next request has its answer.
+        let began = Instant::now();
+        let request = br#"{ "verb": "check", "file": "part.nc", "from": "fanuc" }"#;
+        assert_eq!(server.ask("POST", "/engine/heavy/run", "", request).0, 200);
+        assert!(began.elapsed() < Duration::from_secs(20), "{verb}: {:?}", began.elapsed());
+    }
 }

@@ -23,6 +23,13 @@ interface Place {
   defines: boolean;
 }
 
+/** Where the programs are that the open one may call. */
+export interface Neighbours {
+  /** Their files by ids: name and bytes. */
+  neighbours(): Promise<[id: string, name: string, bytes: Uint8Array][]>;
+  openNeighbour(id: string): Promise<void>;
+}
+
 interface Field {
   name: TextName;
   value: string;
@@ -46,6 +53,7 @@ export class Editing {
   constructor(
     private readonly session: Session,
     private readonly editor: Editor,
+    private readonly around: Neighbours,
   ) {
     const commands: [string, () => Promise<void>][] = [
       ["go-to", () => this.goTo()],
@@ -56,9 +64,11 @@ export class Editing {
     for (const [id, does] of commands) byId(id).addEventListener("click", () => void does());
   }
 
-  /** To where the name at the cursor gets its meaning; from there to where it is used next. */
+  /** To where the name at the cursor gets its meaning, in another program too; from there to where it is used next. */
   async goTo(): Promise<void> {
     const found = await this.nameHere();
+    const calls = !found || (found.sort === "program" && !found.places.some((place) => place.defines));
+    if (calls && (await this.goToCalled())) return;
     if (!found) return;
     const { here, places } = found;
     const defined = places.filter((place) => place.defines);
@@ -71,6 +81,26 @@ export class Editing {
     this.tell("");
     this.editor.goTo(target.line, target.from + 1);
     this.editor.focus();
+  }
+
+  /** To the program of another file that the line at the cursor calls; whether there is one. */
+  private async goToCalled(): Promise<boolean> {
+    const { line, column } = this.editor.place;
+    const told = this.told.textContent ?? "";
+    const files = await this.around.neighbours();
+    const answer = files.length > 0 ? await this.session.askAmong(files, "called", { line, column }) : undefined;
+    const refused = answer && answer.code !== 0 ? answer.text("messages").trim() : "";
+    const place = refused ? undefined : answer?.json<{ file: string; line: number }>("document");
+    const id = files.find(([, name]) => name === place?.file)?.[0];
+    if (!place || !id) {
+      this.tell(refused || told);
+      return refused !== "";
+    }
+    await this.around.openNeighbour(id);
+    this.tell("");
+    this.editor.goTo(place.line);
+    this.editor.focus();
+    return true;
   }
 
   /** Another name for the one at the cursor. */
@@ -114,7 +144,7 @@ export class Editing {
     return "";
   }
 
-  private async nameHere(): Promise<{ here: Place; text: string; shared: boolean; places: Place[] } | undefined> {
+  private async nameHere(): Promise<{ here: Place; sort: string; text: string; shared: boolean; places: Place[] } | undefined> {
     const { line, column } = this.editor.place;
     const answer = await this.session.ask("names", {});
     const names = answer?.json<Names>("document");
@@ -124,8 +154,8 @@ export class Editing {
     const near = all.filter((place) => place.line === line && place.from - 1 <= column && column <= place.to);
     const here = near.find((place) => place.from <= column) ?? near[0] ?? this.only(all, line);
     if (!here) return void this.tell(say("noName"));
-    const { text = "", shared = false } = names.names[here.name] ?? {};
-    return { here, text, shared, places: all.filter((place) => place.name === here.name) };
+    const { sort = "", text = "", shared = false } = names.names[here.name] ?? {};
+    return { here, sort, text, shared, places: all.filter((place) => place.name === here.name) };
   }
 
   /** The one name that a line uses: `GOTO 10`, `M98 P1000`. */

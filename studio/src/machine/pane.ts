@@ -157,6 +157,7 @@ export class MachinePane {
         byId("scale").textContent = this.scale(view);
         byId("frame-time").textContent = view.timed ? this.spent(view) : "";
         byId("canvas").dataset.frames = String(view.frames);
+        byId("canvas").dataset.fineness = `${view.stock.stride} ${view.paths.every}`;
         byId("canvas").dataset.middle = JSON.stringify(view.middle);
         byId("canvas").dataset.scale = String((view.camera.zoom * view.eye.height) / 200);
       },

@@ -61,7 +61,8 @@ export class Paths {
   private readonly pickUniforms = shared();
   private path: Path | undefined;
 
-  set(path: Path | undefined): void {
+  /** Another path, for a device that draws slowly or may do so. */
+  set(path: Path | undefined, slow: boolean): void {
     this.clear();
     this.path = path;
     const pieces = path?.pieces ?? 0;
@@ -79,7 +80,7 @@ export class Paths {
       this.pick.add(piece(texture, base, moves, wide, this.pickUniforms, PICK));
     }
     // Where there are many, few are drawn until it is known how quick the device is.
-    this.thin(wide ? 1 : Math.ceil(pieces / FEW));
+    this.thin(wide && !slow ? 1 : Math.ceil(pieces / FEW));
   }
 
   /** So many moves are one line. */

@@ -205,6 +205,8 @@ const TEXTURES = [
 
 /** Cells along a side of which a part has many. */
 const MANY = 700;
+/** Cells between two points at most. */
+const COARSEST = 4;
 
 export class StockView {
   readonly drawn: Mesh<BufferGeometry, RawShaderMaterial>;
@@ -259,8 +261,8 @@ export class StockView {
     this.pick = make(PICK);
   }
 
-  /** Another part, or none. */
-  open(cut: Cut | undefined): void {
+  /** Another part, or none, for a device that draws slowly or may do so. */
+  open(cut: Cut | undefined, slow: boolean): void {
     this.drawn.visible = this.pick.visible = cut !== undefined;
     this.faces.setVisible(false);
     if (!cut) return;
@@ -271,7 +273,7 @@ export class StockView {
     this.uniforms.bottom!.value = low[2];
     if (this.cells[0] === cells[0] && this.cells[1] === cells[1]) return;
     // Of many cells few are drawn until it is known how quick the device is.
-    if (this.cells[0] === 0 && Math.max(...cells) > MANY) this.uniforms.stride!.value = 2;
+    if (slow && Math.max(...cells) > MANY) this.uniforms.stride!.value = COARSEST;
     this.cells = cells;
     const [across, along] = cells;
     for (const [name, Type, format, type] of TEXTURES) {
@@ -285,9 +287,14 @@ export class StockView {
     this.rebuild();
   }
 
+  /** Cells between two points that are drawn. */
+  get stride(): number {
+    return this.uniforms.stride!.value as number;
+  }
+
   /** Fewer points, for a device that draws slowly; false where there are few already. */
   coarser(): boolean {
-    if (this.uniforms.stride!.value >= 4) return false;
+    if (this.uniforms.stride!.value >= COARSEST) return false;
     this.uniforms.stride!.value *= 2;
     this.rebuild();
     return true;

@@ -90,6 +90,8 @@ export class MachineView {
   private trials = TRIALS;
   /** Whether it is known that more would be too much. */
   private settled = false;
+  /** Whether the device draws slowly, as far as its pictures tell: until then it does. */
+  private slow = true;
   private fitted = false;
   private unfitted = false;
 
@@ -118,8 +120,8 @@ export class MachineView {
     this.path = path;
     this.trials = TRIALS;
     this.settled = false;
-    this.paths.set(path);
-    this.stock.open(cut);
+    this.paths.set(path, this.slow);
+    this.stock.open(cut, this.slow);
     this.cut = cut;
     this.face.show(this.section, cut);
     const box = path && path.pieces > 0 ? path.box : NO_PATH;
@@ -338,7 +340,8 @@ export class MachineView {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
-  /** Draws; the first pictures of a program are timed, and where they take too long part and path are drawn coarser. */
+  /** Draws; the first pictures of a program follow each other and are timed, so that nobody's seek is the first to find out
+   * how fine part and path can be. */
   private render(): void {
     const began = performance.now();
     this.wireframe();
@@ -349,15 +352,21 @@ export class MachineView {
     this.trials -= 1;
     this.wait();
     // The first one compiles and uploads.
-    if (this.trials < TRIALS - 1) this.judge(performance.now() - began);
+    if (this.trials === TRIALS - 1) return this.draw();
+    if (this.judge(performance.now() - began)) this.draw();
+    else this.trials = 0;
   }
 
-  /** Draws part and path coarser where a picture took too long, and finer where four times as much would not. */
-  private judge(spent: number): void {
-    const both = spent > SLOW ? [this.paths, this.stock].map((one) => one.coarser()) : [];
-    if (both.length > 0) this.settled = true;
-    else if (!this.settled && spent * 4 < SLOW) both.push(this.paths.finer(), this.stock.finer());
-    if (both.some(Boolean)) this.draw();
+  /** Draws part and path coarser where a picture took too long, and finer where four times as much would not; whether that
+   * changed something. */
+  private judge(spent: number): boolean {
+    const quick = spent * 4 < SLOW;
+    if (spent > SLOW || quick) this.slow = !quick;
+    if (spent > SLOW) {
+      this.settled = true;
+      return [this.paths, this.stock].map((one) => one.coarser()).some(Boolean);
+    }
+    return !this.settled && quick && [this.paths, this.stock].map((one) => one.finer()).some(Boolean);
   }
 
   /** Cells between two lines of a wireframe: so many that lines are apart. */

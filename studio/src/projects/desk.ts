@@ -2,6 +2,7 @@
 
 import type { Editor } from "../editor/editor";
 import type { Session } from "../session";
+import type { SetUp, Stated } from "../setup/stated";
 import { Signal } from "../ui/signal";
 import { say, type TextName } from "../ui/texts";
 import { EXAMPLES, type Example } from "./examples";
@@ -13,11 +14,20 @@ import { ANSWERS, type Packed } from "./zip";
 /** So long after the last change a text is saved, ms. */
 const QUIET = 600;
 
+/** The largest program that another one is taken to call, bytes. */
+const CALLED = 4 << 20;
+
 export class Desk {
   /** The programs of the folder that the binary serves. */
   list: List | undefined;
   readonly saved = new Signal<TextName>("saved");
+  /** Whether what was stated of the set-up stands in the project file, in words. */
+  readonly setUpTold = new Signal("");
   private timer = 0;
+  /** Parts of the set-up that are written, one after the other. */
+  private stating: Promise<void> = Promise.resolve();
+  /** How often the user has asked for a program: what was asked for before, or by nobody, gives way. */
+  private asked = 0;
   /** Tells other tabs which project was saved. */
   private readonly others = typeof BroadcastChannel === "undefined" ? undefined : new BroadcastChannel("ncc-studio");
 
@@ -31,6 +41,8 @@ export class Desk {
     // A tab that goes away saves what is left.
     addEventListener("visibilitychange", () => document.hidden && void this.save());
     addEventListener("pagehide", () => void this.save());
+    session.beside = async (name) => (this.project?.disk ? (await this.folder?.read(name))?.[0] : this.project?.bodies?.[name]);
+    session.stated.on((stated) => stated && this.takeOver(stated));
     addEventListener("beforeunload", (event) => {
       if (!this.store.keeps) event.preventDefault();
     });
@@ -42,6 +54,7 @@ export class Desk {
 
   /** The project that was open last, or the first program of the folder, or the first example. */
   async begin(): Promise<void> {
+    const { asked } = this;
     if (this.folder && !this.list) {
       this.list = await this.folder.list();
       void this.folder.watch(this.list.stamp, (list) => {
@@ -51,13 +64,13 @@ export class Desk {
       const names = this.list.programs.map((one) => one.name);
       const last = this.store.current && (await this.store.get(this.store.current))?.[0].disk?.name;
       const name = names.find((one) => one === last) ?? names[0];
-      if (name) return this.openProgram(name);
+      if (name) return this.openProgram(name, asked);
     }
-    const found = this.store.current && (await this.store.get(this.store.current));
-    if (found) return this.show(...found);
-    const [last] = await this.store.list();
-    if (last) return this.open(last.id);
-    await this.example(EXAMPLES[0] as Example);
+    const current = this.store.current && (await this.store.get(this.store.current));
+    const [last] = current ? [] : await this.store.list();
+    const found = current || (last && (await this.store.get(last.id)));
+    if (found) return this.show(...found, asked);
+    if (asked === this.asked) await this.example(EXAMPLES[0] as Example, asked);
   }
 
   /** Other programs, by ids and names: of the folder that is served, or the other projects. */
@@ -81,14 +94,33 @@ export class Desk {
     return found && [found[0].file, bytesOf(...found), found[0].choices.from];
   }
 
+  /** Other programs with their bytes, as far as they are no large ones: of several of one name the first. */
+  async neighbours(): Promise<[id: string, name: string, bytes: Uint8Array][]> {
+    const large = new Set(this.list?.programs.filter((one) => one.bytes > CALLED).map((one) => one.name));
+    const found: [string, string, Uint8Array][] = [];
+    const taken = new Set([this.project?.file]);
+    for (const [id, name] of await this.otherPrograms()) {
+      const file = large.has(name) ? undefined : await this.otherFile(id);
+      if (!file || taken.has(file[0]) || file[1].length > CALLED) continue;
+      taken.add(file[0]);
+      found.push([id, file[0], file[1]]);
+    }
+    return found;
+  }
+
+  openNeighbour(id: string): Promise<void> {
+    return this.project?.disk && id.startsWith("disk/") ? this.openProgram(id.slice(5)) : this.open(id);
+  }
+
   async open(id: string): Promise<void> {
+    const asked = ++this.asked;
     await this.save();
     const found = await this.store.get(id);
-    if (found) this.show(...found);
+    if (found) this.show(...found, asked);
   }
 
   /** Opens a program of the folder. What was chosen for it is kept; its text is the file's. */
-  async openProgram(name: string): Promise<void> {
+  async openProgram(name: string, asked = ++this.asked): Promise<void> {
     await this.save();
     const read = await this.folder?.read(name);
     if (!read) return;
@@ -96,22 +128,23 @@ export class Desk {
     const [made, text] = projectOf(name, name, bytes);
     const id = `disk/${this.list?.folder ?? ""}/${name}`;
     const choices = (await this.store.get(id))?.[0].choices ?? made.choices;
-    const project: Project = { ...made, id, choices, disk: { name, tag } };
+    const answers = await this.answersOnDisk();
+    const project: Project = { ...made, id, choices, disk: { name, tag }, ...(answers !== undefined && { answers }) };
     await this.store.put(project, text);
-    this.show(project, text);
+    this.show(project, text, asked);
   }
 
-  async create(name: string, file: string, bytes: Uint8Array, from = "auto"): Promise<void> {
+  async create(name: string, file: string, bytes: Uint8Array, from = "auto", asked = ++this.asked): Promise<void> {
     await this.save();
     const [project, text] = projectOf(await this.freeName(name), file, bytes);
     project.choices.from = from;
     await this.store.put(project, text);
-    this.show(project, text);
+    this.show(project, text, asked);
   }
 
-  async example(example: Example): Promise<void> {
+  async example(example: Example, asked = ++this.asked): Promise<void> {
     const name = example.file.replace(/\.\w+$/, "");
-    await this.create(name, example.file, new TextEncoder().encode(example.text), example.from);
+    await this.create(name, example.file, new TextEncoder().encode(example.text), example.from, asked);
   }
 
   async duplicate(id: string): Promise<void> {
@@ -186,21 +219,73 @@ export class Desk {
     await this.store.put(project);
   }
 
-  /** Writes what was chosen into the program's `ncc.toml`, so that the command line does the same; tells what kept it. */
-  async keepAnswers(): Promise<string> {
+  /** Options that the program's `ncc.toml` states are choices, so that they are seen, and can be taken back. */
+  private takeOver(stated: Stated): void {
+    const choices = this.project?.choices;
+    const sides = [["fromOption", stated.machine], ["toOption", stated.to]] as const;
+    const misses = sides.some(([key, side]) => Object.entries(side?.options ?? {}).some(([name]) => !choices?.[key][name]));
+    if (!misses) return;
+    void this.choose(({ choices: own }) => sides.forEach(([key, side]) => (own[key] = { ...side?.options, ...own[key] })), false);
+  }
+
+  /** States parts of the set-up: they are choices until they stand in the program's `ncc.toml`. */
+  async state(set: Partial<SetUp>, tools: Record<string, string> = {}): Promise<void> {
+    const id = this.project?.id;
+    await this.choose(({ choices }) => {
+      Object.assign(choices, set);
+      for (const [number, text] of Object.entries(tools)) {
+        if (text) choices.tools[number] = text;
+        else delete choices.tools[number];
+      }
+    });
+    // One after the other: each writes over what the one before has written.
+    this.stating = this.stating.then(() => (id === this.project?.id ? this.keepSetUp(set, tools) : undefined));
+    await this.stating;
+  }
+
+  private async keepSetUp(set: Partial<SetUp>, tools: Record<string, string>): Promise<void> {
+    const project = this.project;
+    const texts = Object.entries(tools).map(([number, text]) => `${number}=${text}`);
+    const empty = [...Object.values(set), ...Object.values(tools)].every((own) => own.length === 0);
+    if (!project || (empty && !this.session.stated.get())) return;
+    const told = await this.keepAnswers({ ...set, ...(texts.length > 0 && { tools: texts }) });
+    if (project.id !== this.project?.id) return;
+    this.setUpTold.set(told || say("answersKept"));
+    if (told) return;
+    await this.session.readStated(this.project);
+    if (project.id !== this.project?.id) return;
+    // What the file states needs no choice any more, unless it is another one by now.
+    await this.choose(({ choices }) => {
+      const none = noChoices();
+      for (const key of Object.keys(set) as (keyof SetUp)[]) {
+        if (String(choices[key]) === String(set[key])) Object.assign(choices, { [key]: none[key] });
+      }
+      for (const [number, text] of Object.entries(tools)) if (choices.tools[number] === text) delete choices.tools[number];
+    });
+  }
+
+  private async answersOnDisk(): Promise<string | undefined> {
+    const read = this.list?.answers ? await this.folder?.read(ANSWERS) : undefined;
+    return read && new TextDecoder().decode(read[0]);
+  }
+
+  /** Writes what was chosen, or parts of the set-up alone, into the program's `ncc.toml`, so that the command line does the
+   * same; tells what kept it. */
+  async keepAnswers(set?: Partial<SetUp> & { tools?: string[] }): Promise<string> {
     const { project } = this;
     if (!project) return "";
-    const disk = project.disk && this.folder ? await this.folder.read(ANSWERS) : undefined;
+    if (project.disk && this.folder) this.list = await this.folder.list();
+    const disk = this.list?.answers ? await this.folder?.read(ANSWERS) : undefined;
     const there = project.disk ? disk && new TextDecoder().decode(disk[0]) : project.answers;
-    const answer = await this.session.answers(there);
+    const answer = await this.session.answers(there, set);
     const written = answer?.bytes("output");
     if (!written) return (answer?.text("messages") ?? "").trim();
     if (project.disk && this.folder) {
       // What somebody else wrote meanwhile stays.
       const tag = await this.folder.write(ANSWERS, written, disk?.[1]).catch(() => undefined);
-      return tag === undefined ? say("answersNotKept") : "";
+      if (tag === undefined) return say("answersNotKept");
     }
-    await this.choose((own) => (own.answers = new TextDecoder().decode(written)), false);
+    if (this.project?.id === project.id) await this.choose((own) => (own.answers = new TextDecoder().decode(written)), false);
     return "";
   }
 
@@ -221,19 +306,23 @@ export class Desk {
 
   /** Projects of a zip; the last one is open. */
   async unpack(packed: Packed[]): Promise<void> {
+    const asked = ++this.asked;
     for (const { name, file, bytes, answers, choices } of packed) {
       await this.save();
       const [made, text] = projectOf(await this.freeName(name), file, bytes);
       const project: Project = { ...made, ...(choices && { choices }), ...(answers !== undefined && { answers }) };
       await this.store.put(project, text);
-      this.show(project, text);
+      this.show(project, text, asked);
     }
   }
 
-  private show(project: Project, text: string): void {
+  /** Shows a program, unless the user has asked for another meanwhile. */
+  private show(project: Project, text: string, asked: number): void {
+    if (asked !== this.asked) return;
     clearTimeout(this.timer);
     this.store.current = project.id;
     this.saved.set(this.store.keeps ? "saved" : "noStorage");
+    this.setUpTold.set("");
     // A project of an older page may lack choices of this one.
     this.session.project.set({ ...project, choices: { ...noChoices(), ...project.choices } });
     this.editor.open(text);
@@ -244,10 +333,11 @@ export class Desk {
   private async savedElsewhere(id: string): Promise<void> {
     if (id !== this.project?.id) return;
     if (this.saved.get() === "unsaved") return this.saved.set("otherTab");
+    const { asked } = this;
     const found = await this.store.get(id);
     if (found && this.project?.id === id && found[1] !== this.editor.text) {
       const line = this.editor.cursor;
-      this.show(...found);
+      this.show(...found, asked);
       this.editor.goTo(line);
     }
   }
@@ -255,12 +345,20 @@ export class Desk {
   /** A program of the folder was changed by somebody: it is taken over, unless there is a text here that is not saved. */
   private async changedOnDisk(): Promise<void> {
     const disk = this.project?.disk;
+    const { asked } = this;
+    const answers = disk && (await this.answersOnDisk());
+    if (disk && this.project?.disk?.name === disk.name && answers !== this.project.answers) {
+      await this.choose((own) => {
+        delete own.answers;
+        if (answers !== undefined) own.answers = answers;
+      });
+    }
     const read = disk && (await this.folder?.read(disk.name));
     if (!read || !disk || read[1] === disk.tag || this.project?.disk !== disk) return;
     if (this.saved.get() !== "saved") return this.saved.set("otherDisk");
     const line = this.editor.cursor;
-    await this.openProgram(disk.name);
-    this.editor.goTo(line);
+    await this.openProgram(disk.name, asked);
+    if (asked === this.asked) this.editor.goTo(line);
   }
 
   private async freeName(name: string): Promise<string> {

@@ -23,6 +23,8 @@ export class ProjectsDialog {
   }
 
   async open(): Promise<void> {
+    // What was listed before is not what there is; a file that is taken there would be told in a list that goes.
+    if (!this.dialog.open) this.dialog.replaceChildren();
     await this.fill();
     if (!this.dialog.open) this.dialog.showModal();
   }
@@ -57,7 +59,8 @@ export class ProjectsDialog {
       const current = this.desk.project?.disk?.name === name;
       return el("li", { class: current ? "current" : "" }, el("button", { class: "take", onclick: take }, el("b", {}, name)));
     });
-    return [el("h3", {}, list.folder), el("ul", { id: "folder-list" }, ...rows), el("h3", {}, say("projects"))];
+    const empty = rows.length === 0 ? [el("li", { class: "dim" }, say("folderEmpty"))] : [];
+    return [el("h3", {}, list.folder), el("ul", { id: "folder-list" }, ...rows, ...empty), el("h3", {}, say("projects"))];
   }
 
   private newForm(importing: HTMLElement): HTMLElement {

@@ -5,6 +5,8 @@ import { ANSWERS } from "./zip";
 export interface List {
   folder: string;
   programs: { name: string; bytes: number }[];
+  /** Whether there is a project file beside them. */
+  answers: boolean;
   /** Changes when one of them does. */
   stamp: string;
 }
@@ -18,7 +20,8 @@ export class Folder {
     if (!answer.ok) throw new Error(`programs: ${answer.status}`);
     const list = (await answer.json()) as List;
     // Answers are no program.
-    return { ...list, programs: list.programs.filter((one) => one.name !== ANSWERS) };
+    const programs = list.programs.filter((one) => one.name !== ANSWERS);
+    return { ...list, programs, answers: programs.length < list.programs.length };
   }
 
   /** A program's bytes and their tag. */

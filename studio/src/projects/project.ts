@@ -19,6 +19,10 @@ export interface Choices {
   tools: Record<string, string>;
   /** What holds the part, each as `--fixture` has it. */
   fixtures: string[];
+  /** Z of the table, as `--table` has it. */
+  table: string;
+  /** X, Y and Z of the part's zero in machine coordinates, mm; none where it is not stated. */
+  zero: string[];
   /** Cells along the longer side of the part; 0 where the page chooses. */
   cells: number;
 }
@@ -37,14 +41,14 @@ export interface Project {
   choices: Choices;
   /** Files of triangles that fixtures name. */
   bodies?: Record<string, Uint8Array>;
-  /** The text of its `ncc.toml`, once something was answered. */
+  /** The text of its `ncc.toml`, if there is one: beside it in the folder, or once something was stated. */
   answers?: string;
   /** Where it is in the folder that the binary serves, and the tag of what was read. */
   disk?: { name: string; tag: string };
 }
 
 export function noChoices(from = "auto"): Choices {
-  return { from, machine: "", to: "", machineTo: "", fromOption: {}, toOption: {}, pass: [], stock: "", tools: {}, fixtures: [], cells: 0 };
+  return { from, machine: "", to: "", machineTo: "", fromOption: {}, toOption: {}, pass: [], stock: "", tools: {}, fixtures: [], table: "", zero: [], cells: 0 };
 }
 
 /** A new project of a text's bytes, and the text. */

@@ -5,6 +5,7 @@ import type { Desk } from "../projects/desk";
 import type { Project } from "../projects/project";
 import { el } from "../ui/dom";
 import { say, type TextName } from "../ui/texts";
+import type { SetUp } from "./stated";
 
 const CELLS = [0, 256, 512, 1024, 2048, 4096];
 /** Letters of a block's ranges, and the numbers of a fixture in the order of its fields. */
@@ -16,11 +17,12 @@ export class Bench {
   constructor(
     private readonly desk: Desk,
     private readonly project: Project | undefined,
+    private readonly setUp: SetUp | undefined,
   ) {}
 
   /** The list of fixtures, each by its numbers or its file. */
   fixtures(cut: Cut | undefined): HTMLElement {
-    const all = this.project?.choices.fixtures ?? [];
+    const all = this.setUp?.fixtures ?? [];
     const rows = all.map((text, at) => this.fixture(text, at));
     const add = (name: TextName, make: () => void) => {
       const button = el("button", { class: "chip" }, say(name));
@@ -36,7 +38,25 @@ export class Bench {
     const file = el("input", { type: "file", accept: ".stl", "aria-label": say("fixtureFile"), class: "unseen", tabindex: -1 });
     file.addEventListener("change", () => void this.take(file.files?.[0]));
     const buttons = el("div", { class: "held" }, add("addBlock", () => this.put([...all, jaw])), add("addCylinder", () => this.put([...all, clamp])), add("addStl", () => file.click()), file);
-    return el("section", { id: "fixtures" }, el("h2", {}, say("fixtures")), ...rows, buttons);
+    const table = el("input", { type: "number", step: "any", value: this.setUp?.table ?? "", "aria-label": say("table"), placeholder: "–" });
+    table.addEventListener("change", () => void this.desk.state({ table: table.value }));
+    const level = el("div", { class: "held" }, el("label", {}, say("table"), table, "mm"));
+    return el("section", { id: "fixtures" }, el("h2", {}, say("fixtures")), ...rows, buttons, level);
+  }
+
+  /** Where the zero of the part lies on the machine: with it the travel is shown and checked. */
+  zero(): HTMLElement {
+    const chosen = this.project?.choices.zero ?? [];
+    const inputs = RANGES.map((axis, at) => el("input", { type: "number", step: "any", value: chosen[at] ?? "", "aria-label": `${say("zeroOnMachine")} ${axis}`, placeholder: "–" }));
+    const state = () => {
+      const zero = inputs.map((input) => input.value);
+      // One that is not whole says nothing yet.
+      const all = zero.filter(Boolean).length;
+      if (all === 3 || all === 0) void this.desk.choose(({ choices }) => (choices.zero = all === 3 ? zero : []));
+    };
+    for (const input of inputs) input.addEventListener("change", state);
+    const fields = inputs.map((input, at) => el("label", {}, RANGES[at] ?? "", input));
+    return el("section", { id: "zero" }, el("h2", {}, say("zeroOnMachine")), el("div", { class: "held" }, ...fields, "mm"), el("p", { class: "dim" }, say("zeroMeans")));
   }
 
   /** How fine the part is cut. */
@@ -69,13 +89,13 @@ export class Bench {
   }
 
   private replace(at: number, ...by: string[]): void {
-    const all = [...(this.project?.choices.fixtures ?? [])];
+    const all = [...(this.setUp?.fixtures ?? [])];
     all.splice(at, 1, ...by);
     this.put(all);
   }
 
   private put(fixtures: string[]): void {
-    void this.desk.choose(({ choices }) => (choices.fixtures = fixtures));
+    void this.desk.state({ fixtures });
   }
 
   private async take(file: File | undefined): Promise<void> {
@@ -83,8 +103,8 @@ export class Bench {
     const bytes = new Uint8Array(await file.arrayBuffer());
     await this.desk.choose((project) => {
       project.bodies = { ...project.bodies, [file.name]: bytes };
-      project.choices.fixtures = [...project.choices.fixtures, file.name];
-    });
+    }, false);
+    this.put([...(this.setUp?.fixtures ?? []), file.name]);
   }
 }
 

@@ -51,6 +51,8 @@ export class SetupPane {
   ) {
     session.path.on(() => this.show());
     session.project.on(() => this.show());
+    session.stated.on(() => this.show());
+    desk.setUpTold.on(() => this.show());
   }
 
   private show(): void {
@@ -60,12 +62,27 @@ export class SetupPane {
     if (host.contains(document.activeElement) && document.activeElement?.matches("input, select")) {
       return document.activeElement.addEventListener("blur", () => this.show(), { once: true });
     }
-    const bench = new Bench(this.desk, this.session.project.get());
-    host.replaceChildren(this.raw(cut), bench.fixtures(cut), this.tools(cut), bench.resolution());
+    const bench = new Bench(this.desk, this.session.project.get(), this.session.setUp);
+    const told = el("p", { id: "setup-told", class: "dim" }, this.session.statedTold || this.desk.setUpTold.get());
+    host.replaceChildren(this.machine(), this.raw(cut), bench.fixtures(cut), ...(this.hasMachine ? [bench.zero()] : []), this.tools(cut), bench.resolution(), told);
+  }
+
+  /** The machine, where the bar above has no room for it. */
+  private machine(): HTMLElement {
+    const chosen = this.session.project.get()?.choices.machine;
+    const all = [{ id: "", title: say("noMachine") }, ...this.session.machines];
+    const list = el("select", { "aria-label": say("machine") }, ...all.map(({ id, title }) => el("option", { value: id, selected: id === chosen }, title)));
+    list.addEventListener("change", () => void this.desk.choose(({ choices }) => (choices.machine = list.value)));
+    return el("section", { class: "phone-only" }, el("h2", {}, say("machine")), list);
+  }
+
+  /** Whether it is known which machine has the part. */
+  private get hasMachine(): boolean {
+    return Boolean(this.session.project.get()?.choices.machine || this.session.stated.get()?.machine);
   }
 
   private raw(cut: Cut | undefined): HTMLElement {
-    const stated = this.session.project.get()?.choices.stock ?? "";
+    const stated = this.session.setUp?.stock ?? "";
     const form = !stated ? "guess" : /\bD/.test(stated) ? "cylinder" : "block";
     const numbers = stated ? numbersOf(stated, form) : [];
     const list = el("select", { "aria-label": say("rawPart") });
@@ -85,7 +102,7 @@ export class SetupPane {
   }
 
   private stateRaw(stock: string): void {
-    void this.desk.choose((project) => (project.choices.stock = stock));
+    void this.desk.state({ stock });
   }
 
   private tools(cut: Cut | undefined): HTMLElement {
@@ -116,10 +133,7 @@ export class SetupPane {
       const key = SHAPES.find(([own]) => own === shape.value)?.[2];
       const extra = key && more.value && shape.value === tool.shape ? `,${key}=${more.value}` : "";
       const text = diameter.value ? `${shape.value},${diameter.value}${extra}${bodyText(lengths, diameter.valueAsNumber)}` : "";
-      void this.desk.choose(({ choices }) => {
-        if (text) choices.tools[String(number)] = text;
-        else delete choices.tools[String(number)];
-      });
+      void this.desk.state({}, { [String(number)]: text });
     };
     // Where a holder begins means nothing without one.
     const lengths = Object.fromEntries(Object.entries(body).map(([key, [label, value]]) => [key, field(label, value)]));

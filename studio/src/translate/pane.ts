@@ -6,6 +6,7 @@ import type { Between } from "../engine/part";
 import { download, type Desk } from "../projects/desk";
 import { choose, type Choices } from "../projects/project";
 import type { Other, Session, Translation } from "../session";
+import { sideOf } from "../setup/stated";
 import { byId, el, icon } from "../ui/dom";
 import { wireToggle } from "../ui/layout";
 import { figure, say, type TextName } from "../ui/texts";
@@ -47,6 +48,7 @@ export class TranslatePane {
     });
     wireToggle("together", (on) => this.aligned.setTogether(on));
     session.translation.on((translation) => this.show(translation));
+    for (const signal of [session.project, session.stated]) signal.on(() => this.verdict(session.translation.get()));
     let open: string | undefined;
     session.project.on((project) => {
       this.choices();
@@ -71,7 +73,8 @@ export class TranslatePane {
   private other(): Other | undefined {
     const [output, project] = [this.session.translation.get()?.output, this.session.project.get()];
     if (output === undefined || !project) return undefined;
-    const { machineTo: machine, toOption: options } = project.choices;
+    const { toOption: options, to, machineTo } = project.choices;
+    const { machine } = sideOf(to, machineTo, this.session.stated.get()?.to);
     const bytes = new TextEncoder().encode(output);
     return { name: `translated-${project.file}`, bytes, from: this.target(), machine, options };
   }
@@ -79,7 +82,7 @@ export class TranslatePane {
   private target(): string {
     const choices = this.session.project.get()?.choices;
     const machine = this.session.machines.find((one) => one.id === choices?.machineTo);
-    return choices?.to || machine?.dialect || "";
+    return choices?.to || machine?.dialect || (this.session.stated.get()?.to?.dialect ?? "");
   }
 
   private show(translation: Translation | undefined): void {
@@ -103,8 +106,9 @@ export class TranslatePane {
   private verdict(translation: Translation | undefined): void {
     const [text, look] = verdictOf(translation);
     const place = byId("verdict");
-    place.textContent = text ? say(text) : "";
-    place.className = look;
+    const idle = !translation && !this.target();
+    place.textContent = idle ? say("chooseTarget") : text ? say(text) : "";
+    place.className = idle ? "dim" : look;
   }
 
   private question(question: Question): HTMLElement {

@@ -3,7 +3,9 @@
 import type { Listed } from "../engine/documents";
 import type { Desk } from "../projects/desk";
 import type { Choices } from "../projects/project";
+import { ANSWERS } from "../projects/zip";
 import type { Session } from "../session";
+import type { StatedSide } from "../setup/stated";
 import { byId, el } from "./dom";
 import { say } from "./texts";
 
@@ -28,6 +30,7 @@ export class ChoiceLists {
     }
     session.project.on((project) => project && this.show(project.choices));
     session.dialect.on(() => this.fill());
+    session.stated.on(() => this.fill());
   }
 
   /** Fills the lists anew: what is recognised stands in them. */
@@ -37,10 +40,17 @@ export class ChoiceLists {
     const title = dialects.find((one) => one.id === own)?.title;
     const recognised = title ? say("recognised", { name: title }) : say("automatic");
     const shown = dialects.filter((one) => !INTERNAL.includes(one.id));
-    put("from", [["auto", recognised], ...pairs(shown)]);
-    put("machine", [["", say("noMachine")], ...pairs(machines)]);
-    put("to", [["", "–"], ...pairs(shown)]);
-    put("machine-to", [["", say("noMachine")], ...pairs(machines)]);
+    // What the project file states holds where nothing is chosen.
+    const stated = this.session.stated.get();
+    const dialect = (side: StatedSide | null | undefined) => {
+      const found = dialects.find((one) => one.id === side?.dialect)?.title;
+      return found && `${ANSWERS}: ${found}`;
+    };
+    const machine = (side: StatedSide | null | undefined) => side?.name && `${ANSWERS}: ${machines.find((one) => one.id === side.name)?.title ?? side.name}`;
+    put("from", [["auto", dialect(stated?.machine) ?? recognised], ...pairs(shown)]);
+    put("machine", [["", machine(stated?.machine) || say("noMachine")], ...pairs(machines)]);
+    put("to", [["", dialect(stated?.to) ?? "–"], ...pairs(shown)]);
+    put("machine-to", [["", machine(stated?.to) || say("noMachine")], ...pairs(machines)]);
     const project = this.session.project.get();
     if (project) this.show(project.choices);
   }

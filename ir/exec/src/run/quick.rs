@@ -107,7 +107,7 @@ impl<'p> Runner<'p> {
     /// A loop that the run never leaves.
     #[inline]
     pub(super) fn go_quickly(&mut self, code: &Code<'p>, exec: &Exec, before: u64) -> Result<(), Diagnostic> {
-        if halt::is_asked() {
+        if halt::is_asked_of_all() {
             return Ok(());
         }
         let most = self.most.min(before.saturating_add(self.most_idle)).min(halt::uncounted(self.steps));
