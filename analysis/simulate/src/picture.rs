@@ -236,8 +236,16 @@ fn material_behind(
     let (mut last, mut material) = (None, Vec::new());
     for Place { column: i, row: j, ground } in view.places(map, view.line(column)) {
         let own = j * width + i;
-        let is_new = last.replace(own) != Some(own);
-        if is_new {
+        let before = [(i > 0).then(|| own - 1), (j > 0).then(|| own - width)];
+        // By which sides the line comes into the cell.
+        let sides = match last.replace([i, j]) {
+            Some(last) if last == [i, j] => 0..0,
+            Some([column, _]) if column == i => 1..2,
+            Some([_, row]) if row == j => 0..1,
+            Some(_) => 0..2,
+            None => usize::from(i > 0)..2,
+        };
+        if !sides.is_empty() {
             material = map.material(own, level);
         }
         for (n, [low, high]) in material.iter().enumerate() {
@@ -246,18 +254,15 @@ fn material_behind(
                 if std::mem::replace(&mut hidden[line], true) {
                     continue;
                 }
-                // Behind its front a cell shows its top, and where it begins in the uppermost row of pixels.
-                let is_top = !is_new || line + 1 == view.lines(low, high).end;
-                let (number, by) = if is_top && n + 1 == material.len() {
-                    (map.last[own], light(rise(map, level, i, j)))
-                } else if is_top {
-                    (map.hollows.last(own), light([0.0; 2]))
-                } else {
-                    // A wall is of the move that has emptied the cell before it.
-                    let height = (f64::from(level) + (line as f64 + 0.5) / view.scale - ground) as f32;
-                    let front = usize::from(i > 0 && is_solid(map, own - 1, height));
-                    let before = [i.checked_sub(1).map(|_| 1), j.checked_sub(1).map(|_| width)][front];
-                    (before.map_or(0, |step| emptied(map, own - step, height)), WALLS[front])
+                let height = (f64::from(level) + (line as f64 + 0.5) / view.scale - ground) as f32;
+                // A cell shows a wall where the one before it is empty, else its top.
+                let is_open = |side: &usize| before[*side].is_none_or(|cell| !is_solid(map, cell, height));
+                let wall = sides.clone().find(is_open);
+                let (number, by) = match wall {
+                    // It is of the move that has emptied that one.
+                    Some(side) => (before[side].map_or(0, |cell| emptied(map, cell, height)), WALLS[side]),
+                    None if n + 1 == material.len() => (map.last[own], light(rise(map, level, i, j))),
+                    None => (map.hollows.last(own), light([0.0; 2])),
                 };
                 view.put(pixels, column, line, shaded(colour(number, tool), by));
             }
