@@ -89,6 +89,8 @@ export class Session {
   private seeking = false;
   /** The project file that `stated` tells of, and the program. */
   private read = "";
+  /** How often it was read: what a newer reading overtakes tells nothing. */
+  private readings = 0;
   private wantedMoves = Infinity;
   private shownMoves = Infinity;
   /** Texts that the quick engine has, by their files. */
@@ -285,6 +287,7 @@ export class Session {
     const { engines } = this;
     const key = project.answers === undefined ? "" : `${project.id} ${project.answers}`;
     if (!engines || key === this.read) return;
+    const own = ++this.readings;
     const ask = async () => {
       const answer = await engines.quick.run({ verb: "stated", file: project.file, project: ANSWERS });
       return [answer.json<Stated>("document"), answer.code === 0 ? "" : answer.text("messages").trim()] as const;
@@ -299,7 +302,7 @@ export class Session {
       found.forEach(([name, bytes]) => put(name, bytes));
       if (found.length > 0) [stated, told] = await ask();
     }
-    if (project.id !== this.project.get()?.id) return;
+    if (own !== this.readings || project.id !== this.project.get()?.id) return;
     this.read = key;
     this.statedTold = told;
     this.stated.set(stated);

@@ -72,11 +72,13 @@ export const line = async (page) => Number(await page.locator("#editor .cm-activ
 /** Waits until the picture stays as it is, three seconds at most: by software a fine part takes longer than a moment. */
 async function drawn(page) {
   const frames = () =>
-    page.evaluate(() => {
+    page.evaluate(async () => {
       const canvas = document.querySelector("#canvas");
       const gl = canvas?.getContext("webgl2");
-      // What is read must have been drawn.
-      gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+      // All until here is drawn when the fence is passed; to read a pixel would empty the picture that a screenshot takes.
+      const fence = gl?.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+      gl?.flush();
+      while (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) await new Promise((done) => setTimeout(done, 20));
       return canvas?.dataset.frames;
     });
   let before = await frames();
