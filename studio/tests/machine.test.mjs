@@ -135,6 +135,37 @@ both("an undercut is seen from the side, in a section, in its area and under the
   assert.ok(after > 0);
 });
 
+/** A hole from the right, along X. */
+const TILTED = `%
+O0203 (TILTED)
+(T1 D=8. - DRILL)
+G21 G17 G90 G94 G40 G49 G80
+T1 M6
+G54 G0 X-10. Y0. S1000 M3
+G68.2 X0. Y0. Z0. I90. J90. K0.
+G53.1
+G43 H1 Z20.
+G0 X0. Y-10. Z20.
+G1 Z-10. F100.
+G0 Z20.
+G69
+M5
+M30
+%
+`;
+
+both("the tool leans on a tilted plane, and what it takes there is drawn", {}, async (own) => {
+  await type(own, TILTED);
+  await own.click("#to-start");
+  await ready(own);
+  assert.equal(await data(own, "leans"), "0.0000 0.0000 1.0000");
+  await own.click("#to-end");
+  await ready(own);
+  const [x, y, z] = (await data(own, "leans")).split(" ").map(Number);
+  assert.deepEqual([x, y, z], [1, 0, 0]);
+  assert.ok(Number(await data(own, "faces")) > 10);
+});
+
 both("places on the part are measured: edges and cells by clicks, numbers, and where the tool is", {}, async (own) => {
   await slot(own);
   await own.click('[data-side="top"]');

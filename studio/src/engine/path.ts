@@ -51,6 +51,16 @@ export interface Path extends Columns {
   readonly box: Box;
   /** What is active in its blocks and moves. */
   readonly modes: Modes | undefined;
+  /** Of each piece 0, or the number of the tilted plane on which the tool stands, from 1; of a path without any, nothing. */
+  readonly tilt: Uint16Array | undefined;
+  /** The axes of the tilted planes: the rows of a matrix, whose third column is the direction of the tool, from its tip. */
+  readonly tilts: readonly (readonly number[])[];
+}
+
+/** The direction of the tool in a piece, from its tip. */
+export function leaning(path: Path, piece: number): [number, number, number] {
+  const axes = path.tilts[(path.tilt?.[piece] ?? 0) - 1];
+  return axes ? [axes[2] as number, axes[5] as number, axes[8] as number] : [0, 0, 1];
 }
 
 export interface Box {
@@ -61,6 +71,7 @@ export interface Box {
 interface Head {
   pieces: number;
   columns: { name: string; type: string; offset: number }[];
+  tilts?: number[][];
 }
 
 /** Whether a kind does not cut. */
@@ -73,18 +84,23 @@ export function readPath(bytes: Uint8Array, modes: Uint8Array | undefined): Path
   const end = bytes.indexOf(10);
   const head = JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))) as Head;
   const found: Record<string, unknown> = {};
-  for (const [name, Type] of Object.entries(COLUMNS)) {
+  const read = (name: string, Type: (typeof COLUMNS)[keyof typeof COLUMNS]) => {
     const column = head.columns.find((one) => one.name === name);
-    if (!column) throw new Error(`path: no column ${name}`);
+    if (!column) return undefined;
     const at = end + 1 + column.offset;
     // Columns begin where their type may, so that they are read in place; of an answer that does not, in a copy.
     const fits = (bytes.byteOffset + at) % Type.BYTES_PER_ELEMENT === 0;
     const [buffer, from] = fits ? [bytes.buffer, bytes.byteOffset + at] : [bytes.slice(at, at + head.pieces * Type.BYTES_PER_ELEMENT).buffer, 0];
-    found[name] = new Type(buffer as ArrayBuffer, from, head.pieces);
+    return new Type(buffer as ArrayBuffer, from, head.pieces);
+  };
+  for (const [name, Type] of Object.entries(COLUMNS)) {
+    found[name] = read(name, Type);
+    if (!found[name]) throw new Error(`path: no column ${name}`);
   }
+  const tilt = read("tilt", Uint16Array) as Uint16Array | undefined;
   const columns = found as unknown as Columns;
   const seconds = head.pieces > 0 ? (columns.t1[head.pieces - 1] ?? 0) : 0;
-  return { ...columns, pieces: head.pieces, seconds, box: boxOf(columns, head.pieces), modes: modes && new Modes(modes) };
+  return { ...columns, pieces: head.pieces, seconds, box: boxOf(columns, head.pieces), modes: modes && new Modes(modes), tilt, tilts: head.tilts ?? [] };
 }
 
 function boxOf(columns: Columns, pieces: number): Box {

@@ -1,7 +1,7 @@
 // The machine's pane: the picture where WebGL 2 is, its buttons, and what stands over it.
 
 import type { Cut, Heights } from "../engine/part";
-import { piecesOf, type Path } from "../engine/path";
+import { leaning, piecesOf, type Path } from "../engine/path";
 import { placeOf, type Now, type Player } from "../time/player";
 import { byId, el } from "../ui/dom";
 import { wireToggle } from "../ui/layout";
@@ -111,7 +111,7 @@ export class MachinePane {
     this.readout.show(path, now, tool);
     if (!path) return;
     this.view?.setTool(tool);
-    this.view?.setNow(now.piece, now.share, placeOf(path, now));
+    this.view?.setNow(now.piece, now.share, placeOf(path, now), path ? leaning(path, now.piece) : [0, 0, 1]);
   }
 
   /** Marks the path of a line, and what its moves left on the part. */

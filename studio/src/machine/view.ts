@@ -36,6 +36,9 @@ const SIDES: Record<Side, [Vector3, Vector3]> = {
   right: [new Vector3(1, 0, 0), new Vector3(0, 0, 1)],
 };
 
+/** The direction of a tool that does not lean. */
+const UPRIGHT = new Vector3(0, 0, 1);
+
 const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 /** Pixels around a pointer that are looked through for a move. */
 const REACH = 9;
@@ -135,9 +138,12 @@ export class MachineView {
     this.draw();
   }
 
-  setNow(move: number, share: number, place: [number, number, number]): void {
+  /** The piece under way and how much of it is done, where the tip is, and the direction of the tool from there. */
+  setNow(move: number, share: number, place: Point, direction: Point): void {
     this.paths.setNow(move, share);
     this.tool.position.set(...place);
+    this.tool.quaternion.setFromUnitVectors(UPRIGHT, new Vector3(...direction));
+    this.canvas.dataset.leans = direction.map((part) => part.toFixed(4)).join(" ");
     this.draw();
   }
 
