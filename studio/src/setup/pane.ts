@@ -141,6 +141,8 @@ export class SetupPane {
     for (const input of [shape, diameter, more, ...Object.values(lengths)]) input.addEventListener("change", state);
     const dot = el("i", { class: `band band-${at % 8}` });
     const guessed = tool.known === "guess";
+    // A machine that has no name stands in the project file, with what is stated here.
+    const isHere = tool.known === "profile" && this.session.stated.get()?.machine?.name === null && !this.session.project.get()?.choices.machine;
     return el(
       "tr",
       {},
@@ -149,7 +151,7 @@ export class SetupPane {
       el("td", {}, diameter, " mm"),
       el("td", {}, more, option ? ` ${unit}` : ""),
       ...Object.values(lengths).map((input) => el("td", {}, input)),
-      el("td", { class: guessed ? "guess" : "" }, say(KNOWN[tool.known] ?? "guess")),
+      el("td", { class: guessed ? "guess" : "" }, say(isHere ? "knownStated" : (KNOWN[tool.known] ?? "guess"))),
       el("td", { class: "figure" }, clock(tool.cutting)),
       el("td", { class: "figure" }, `${figure(tool.removed / 1000, 2)} cm³`),
     );
