@@ -163,7 +163,7 @@ both("the tool leans on a tilted plane, and what it takes there is drawn", {}, a
   await ready(own);
   const [x, y, z] = (await data(own, "leans")).split(" ").map(Number);
   assert.deepEqual([x, y, z], [1, 0, 0]);
-  assert.ok(Number(await data(own, "faces")) > 10);
+  await own.waitForFunction(() => Number(document.querySelector("#canvas").dataset.faces) > 10);
 });
 
 both("places on the part are measured: edges and cells by clicks, numbers, and where the tool is", {}, async (own) => {
