@@ -120,11 +120,15 @@ export async function pixels(page, selector, colours) {
   );
 }
 
-/** A place on the picture where a colour is, in the page's pixels. */
-export async function placeOf(page, variable) {
+/**
+ * A place on the picture where a colour is, in the page's pixels: that of a variable, or one with so much more red than blue and at most
+ * this share of green in it.
+ */
+export async function placeOf(page, variable, hue) {
+  await drawn(page);
   const shot = await page.locator("#canvas").screenshot();
   const at = await page.evaluate(
-    async ([source, name]) => {
+    async ([source, name, hue]) => {
       const image = new Image();
       image.src = source;
       await image.decode();
@@ -136,13 +140,15 @@ export async function placeOf(page, variable) {
       const own = pen.getImageData(0, 0, 1, 1).data;
       pen.drawImage(image, 0, 0);
       const { data } = pen.getImageData(0, 0, canvas.width, canvas.height);
+      const isNear = (colour) => colour.every((part, channel) => Math.abs(part - own[channel]) < 16);
+      const isOf = ([r, g, b]) => r - b > hue.spread && g < hue.green * r;
+      const fits = hue ? isOf : isNear;
       const all = [];
-      for (let at = 0; at < data.length; at += 4)
-        if ([0, 1, 2].every((channel) => Math.abs(data[at + channel] - own[channel]) < 16)) all.push(at / 4);
+      for (let at = 0; at < data.length; at += 4) if (fits([data[at], data[at + 1], data[at + 2]])) all.push(at / 4);
       const middle = all[Math.floor(all.length / 2)];
       return middle === undefined ? undefined : [middle % canvas.width, Math.floor(middle / canvas.width)];
     },
-    [`data:image/png;base64,${shot.toString("base64")}`, variable],
+    [`data:image/png;base64,${shot.toString("base64")}`, variable, hue],
   );
   const box = await page.locator("#canvas").boundingBox();
   return at && [box.x + at[0], box.y + at[1]];

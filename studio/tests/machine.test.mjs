@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { pixels, placeOf, ready, type } from "./browser.mjs";
+import { line, pixels, placeOf, ready, type } from "./browser.mjs";
 import { tests, value } from "./pages.mjs";
 import { SQUARE, long } from "./programs.mjs";
 
@@ -118,21 +118,36 @@ both("an undercut is seen from the side, in a section, in its area and under the
   await slot(own, UNDERCUT);
   await own.click("#to-end");
   await ready(own);
+  await own.waitForFunction(() => Number(document.querySelector("#canvas").dataset.faces) > 10);
+  assert.ok(Number(await data(own, "faces")) < 5_000, await data(own, "faces"));
   for (const kind of [0, 1]) await own.click(`#kind-${kind}`);
-  // The block from its right end: through the slot and what the disc took one sees nothing behind.
+  // From the right end one looks through the block where the slot is, and beside it where the disc was.
   await own.click('[data-side="right"]');
-  const part = { raw: "--part-raw", cut: "--part-cut" };
-  const solid = async () => Object.values(await pixels(own, "#canvas", part)).reduce((sum, one) => sum + one);
-  const faces = Number(await data(own, "faces"));
-  assert.ok(faces > 10 && faces < 5_000, String(faces));
-  const after = await solid();
+  const open = async () => (await pixels(own, "#canvas", { ground: "--ground" })).ground;
+  const after = await open();
+  const scale = Number(await data(own, "scale"));
+  const thick = Number(await data(own, "tool").then((tool) => JSON.parse(tool)[1]));
   await own.click("#section-toggle");
   await own.getByRole("button", { name: "Section across X" }).click();
   const area = async () => Number(await data(own, "section"));
   // 40 × 20 mm less a slot of 8 × 12 mm and twice 4 mm beside it, as high as the disc is thick.
-  const thick = Number(await data(own, "tool").then((tool) => JSON.parse(tool)[1]));
   assert.ok(Math.abs((await area()) - (800 - 96 - 8 * thick)) < 4, `${await area()}, disc of ${thick}`);
-  assert.ok(after > 0);
+  await own.click("#section-toggle");
+  await own.selectOption("#colouring", "tool");
+  await own.click('[data-side="iso"]');
+  // The wall that the disc has left has the second tool's colour, and leads to its block.
+  const [x, y] = await placeOf(own, "", { spread: 45, green: 0.8 });
+  await own.mouse.click(x, y);
+  assert.equal(await line(own), 16);
+  // Without the disc the block hides what was seen beside the slot.
+  await own.click('[data-side="right"]');
+  await type(own, UNDERCUT.replace("G1 X60. F150.\n", ""));
+  await own.click("#to-end");
+  await ready(own);
+  await own.waitForFunction(() => document.querySelector("#canvas").dataset.faces === "0");
+  const hidden = (after - (await open())) / scale ** 2;
+  // Lines of the grid and the axes are seen there, too.
+  assert.ok(hidden > 0.8 * 8 * thick && hidden < 1.02 * 8 * thick, `${hidden} mm² for ${8 * thick}`);
 });
 
 /** A hole from the right, along X. */

@@ -137,6 +137,7 @@ export class Faces {
       return mesh;
     };
     Object.assign(part, this.own);
+    for (const [name, own] of nothing()) this.put(name, own);
     this.drawn = make(fragment);
     this.pick = make(pick);
   }
@@ -154,15 +155,16 @@ export class Faces {
     if (!covered.length && !this.some) return;
     this.own.hasHollows!.value = covered.length > 0;
     this.lasts = new Uint32Array(covered.length);
-    for (const mesh of [this.drawn, this.pick]) {
-      mesh.geometry.dispose();
-      mesh.geometry = new InstancedBufferGeometry();
-      mesh.geometry.setAttribute("own", new InstancedBufferAttribute(faces, 4));
-      mesh.geometry.instanceCount = faces.length / 4;
-      mesh.geometry.setDrawRange(0, 6);
+    const geometry = new InstancedBufferGeometry();
+    geometry.setAttribute("own", new InstancedBufferAttribute(faces, 4));
+    geometry.instanceCount = faces.length / 4;
+    geometry.setDrawRange(0, 6);
+    this.drawn.geometry.dispose();
+    this.drawn.geometry = this.pick.geometry = geometry;
+    if (!covered.length) {
+      for (const [name, own] of nothing()) this.put(name, own);
+      return;
     }
-    for (const name of ["hollowed", "hollows", "hollowLast"]) (this.own[name]!.value as DataTexture | null)?.dispose();
-    if (!covered.length) return;
     const packed = Uint32Array.from(covered);
     const ends = new Float32Array(2 * ROW * Math.max(1, Math.ceil(hollows.count / ROW)));
     for (let n = 0; n < hollows.count; n += 1) {
@@ -174,17 +176,23 @@ export class Faces {
       if (before < 2) packed[cell] = before + 2 + 32 * n;
       else if (((before >> 1) & 15) < 15) packed[cell] = before + 2;
     }
-    this.own.hollowed!.value = texture(new DataTexture(packed, ...cells, RedIntegerFormat, UnsignedIntType));
-    this.own.hollowLast!.value = texture(new DataTexture(this.lasts, ...cells, RedIntegerFormat, UnsignedIntType));
-    this.own.hollows!.value = texture(new DataTexture(ends, ROW, ends.length / 2 / ROW, RGFormat, FloatType));
+    this.put("hollowed", new DataTexture(packed, ...cells, RedIntegerFormat, UnsignedIntType));
+    this.put("hollowLast", new DataTexture(this.lasts, ...cells, RedIntegerFormat, UnsignedIntType));
+    this.put("hollows", new DataTexture(ends, ROW, ends.length / 2 / ROW, RGFormat, FloatType));
   }
 
   /** As the grid's, of the hollows. */
   setTint(tint: Uint8Array, cells: [number, number]): void {
-    (this.own.hollowTint!.value as DataTexture | null)?.dispose();
-    const own = texture(new DataTexture(tint, ...cells, RedFormat, UnsignedByteType));
+    this.put("hollowTint", new DataTexture(tint, ...cells, RedFormat, UnsignedByteType));
+  }
+
+  /** Takes the place of the texture that was there. */
+  private put(name: string, own: DataTexture): void {
+    (this.own[name]!.value as DataTexture | null)?.dispose();
+    own.minFilter = own.magFilter = NearestFilter;
     own.unpackAlignment = 1;
-    this.own.hollowTint!.value = own;
+    own.needsUpdate = true;
+    this.own[name]!.value = own;
   }
 
   setVisible(on: boolean): void {
@@ -192,8 +200,13 @@ export class Faces {
   }
 }
 
-function texture(own: DataTexture): DataTexture {
-  own.minFilter = own.magFilter = NearestFilter;
-  own.needsUpdate = true;
-  return own;
+/** Textures of a part without hollows: a texture that is missing would be of the wrong type for its shader. */
+function nothing(): [string, DataTexture][] {
+  const integer = () => new DataTexture(new Uint32Array(1), 1, 1, RedIntegerFormat, UnsignedIntType);
+  return [
+    ["hollowed", integer()],
+    ["hollowLast", integer()],
+    ["hollows", new DataTexture(new Float32Array(2), 1, 1, RGFormat, FloatType)],
+    ["hollowTint", new DataTexture(new Uint8Array(1), 1, 1, RedFormat, UnsignedByteType)],
+  ];
 }
