@@ -91,5 +91,7 @@ problem-project-shared = a row of { $file } is about { $program } and others
     .help = give { $program } a row of its own, or write the answer into that row
 problem-project-named = { $file } cannot hold answers beside a named machine
     .help = write them into the machine's profile, under [options]
+problem-project-machine-stated = { $file } states more of the machine than its control
+    .help = put the machine's name there by hand, and its tools into the profile
 problem-project-undecided = { $program } may be for several controls, and { $file } needs one
     .help = choose the control first
