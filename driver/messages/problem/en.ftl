@@ -93,5 +93,7 @@ problem-project-named = { $file } cannot hold answers beside a named machine
     .help = write them into the machine's profile, under [options]
 problem-project-machine-stated = { $file } states more of the machine than its control
     .help = put the machine's name there by hand, and its tools into the profile
+problem-project-absent = { $file } names { $name }, and there is no such file
+    .help = ncc goes on without it; put it beside the program, or correct the name
 problem-project-undecided = { $program } may be for several controls, and { $file } needs one
     .help = choose the control first

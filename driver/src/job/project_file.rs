@@ -54,6 +54,12 @@ pub fn undecided(program: &str) -> Problem {
     refused("project-undecided", program)
 }
 
+/// That a project file names a file that is not at hand.
+pub fn absent(name: &str) -> Problem {
+    let message = problem("project-absent").text("name", name).text("file", NAME);
+    Problem::of(Exit::File, &message, None)
+}
+
 /// The name of a program as a pattern that matches nothing else.
 fn pattern(program: &str) -> String {
     let plain = |letter: char| match letter {
