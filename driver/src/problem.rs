@@ -180,6 +180,23 @@ impl Problem {
     /// # Errors
     /// Writing.
     pub fn print(&self, out: &mut dyn WriteColor, json: bool) -> io::Result<()> {
+        self.print_as(out, ("error", Color::Red), json)
+    }
+
+    /// Prints it as a warning: the command is done without what is lacking.
+    ///
+    /// # Errors
+    /// Writing.
+    pub fn warn(&self, out: &mut dyn WriteColor) -> io::Result<()> {
+        self.print_as(out, ("warning", Color::Yellow), false)
+    }
+
+    fn print_as(
+        &self,
+        out: &mut dyn WriteColor,
+        (severity, colour): (&'static str, Color),
+        json: bool,
+    ) -> io::Result<()> {
         #[derive(Serialize)]
         struct Line<'a> {
             severity: &'static str,
@@ -190,11 +207,11 @@ impl Problem {
             return Ok(());
         }
         if json {
-            let line = Line { severity: "error", message: &self.message, advice: &self.help };
+            let line = Line { severity, message: &self.message, advice: &self.help };
             return line::line(&mut as_write(out), &line);
         }
-        out.set_color(ColorSpec::new().set_fg(Some(Color::Red)).set_bold(true).set_intense(true))?;
-        write!(out, "error")?;
+        out.set_color(ColorSpec::new().set_fg(Some(colour)).set_bold(true).set_intense(true))?;
+        write!(out, "{severity}")?;
         out.reset()?;
         writeln!(out, ": {}", self.message)?;
         for (i, line) in self.help.iter().enumerate() {

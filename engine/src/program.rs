@@ -85,7 +85,35 @@ pub(crate) fn row(project: Option<&str>, file: &str, files: &Files) -> Result<Op
     project_file::row(&String::from_utf8_lossy(text), file)
 }
 
-/// The machine that a request names, or else that of a row of the project file, unless the request names another dialect.
+/// The name of a machine of a row whose profile is not at hand: nothing else that is asked shall fail with it.
+fn absent(row: Option<&MachineRef>, files: &Files) -> Option<String> {
+    match row? {
+        MachineRef::Named(name) => {
+            let is_known = ncc_machines::find(name.get_ref()).is_some() || files.contains_key(name.get_ref());
+            (!is_known).then(|| name.get_ref().clone())
+        }
+        MachineRef::Inline(..) => None,
+    }
+}
+
+/// Tells which machine of a row is not at hand, where the request names none in its place.
+pub(crate) fn tell_absent(
+    machine: Option<&str>,
+    row: Option<&MachineRef>,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<(), Problem> {
+    let Some(name) = absent(row, files).filter(|_| machine.is_none()) else { return Ok(()) };
+    warn(&name, messages)
+}
+
+/// Tells that a file which a row names is not at hand.
+pub(crate) fn warn(name: &str, messages: &mut Buffer) -> Result<(), Problem> {
+    project_file::absent(name).warn(messages).map_err(|e| Problem::file("read", name, &e))
+}
+
+/// The machine that a request names, or else that of a row of the project file, unless the request names another dialect; none
+/// where that of the row is not at hand ([`tell_absent`]).
 pub(crate) fn machine(
     machine: Option<&str>,
     dialect: Option<&str>,
@@ -94,6 +122,7 @@ pub(crate) fn machine(
 ) -> Result<Option<Arc<Profile>>, Problem> {
     let own = match row.filter(|_| machine.is_none()) {
         None => return profile(machine, files),
+        own if absent(own, files).is_some() => return Ok(None),
         Some(MachineRef::Named(name)) => profile(Some(name.get_ref()), files)?,
         Some(MachineRef::Inline(profile, _)) => Some(Arc::new(Profile::clone(profile))),
     };
@@ -177,6 +206,8 @@ pub(crate) fn side_alone(one: &One, files: &Files, messages: &mut Buffer) -> Res
 
 fn side_with(one: &One, files: &Files, called: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
     let mut source = open(&one.file, one.assume_milling, files, messages)?;
+    let stated = row(one.project.as_deref(), &one.file, files)?.and_then(|row| row.machine);
+    tell_absent(one.machine.as_deref(), stated.as_ref(), files, messages)?;
     let profile = machine_of(one, files)?;
     let machines = Machines { from: profile.clone(), to: profile };
     let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;

@@ -21,10 +21,10 @@ use ncc_driver::source::Source;
 use ncc_driver::time::assumed;
 use ncc_driver::time::drive::{Unwatched, drive};
 use ncc_machines::Profile;
+use ncc_machines::project::Programs;
 use ncc_simulate::{Face, Fixture, Stock, covered, faces};
-use toml::Spanned;
 
-use crate::program::{Files, Outputs, machine_of, plan, row, side};
+use crate::program::{Files, Outputs, machine_of, plan, row, side, warn};
 use crate::request::{One, Seek, Simulate};
 
 /// The program that was cut last.
@@ -128,6 +128,43 @@ fn body(text: &str, files: &Files) -> Result<Stock, Problem> {
     }
 }
 
+/// A body of a row of a project file; none where its file is not at hand, which has been told.
+fn stated_body(text: &str, files: &Files, messages: &mut Buffer) -> Result<Option<Stock>, Problem> {
+    match raw::stated(text) {
+        Ok(raw::Stated::File(name)) if !files.contains_key(&name) => warn(&name, messages).map(|()| None),
+        Ok(_) | Err(_) => body(text, files).map(Some),
+    }
+}
+
+/// The raw part and what holds it: those of the request, or else those of a row of the project file.
+fn bench(
+    asked: &Simulate,
+    row: Option<&Programs>,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<Bench, Problem> {
+    let stock = match (&asked.stock, row.and_then(|row| row.stock.as_ref())) {
+        (Some(text), _) => Some(body(text, files)?),
+        (None, Some(text)) => stated_body(text.get_ref(), files, messages)?,
+        (None, None) => None,
+    };
+    let mut fixtures = Vec::new();
+    for text in &asked.fixtures {
+        fixtures.push(Fixture { name: text.clone(), shape: body(text, files)? });
+    }
+    for text in row.filter(|_| asked.fixtures.is_empty()).into_iter().flat_map(|row| &row.fixtures) {
+        let shape = stated_body(text.get_ref(), files, messages)?;
+        fixtures.extend(shape.map(|shape| Fixture { name: text.get_ref().clone(), shape }));
+    }
+    Ok(Bench {
+        guessed: stock.is_none(),
+        stock,
+        fixtures,
+        table: asked.table.or(row.and_then(|row| row.table.as_ref()).map(|table| *table.get_ref())),
+        cells: asked.cells.clamp(16, 8192),
+    })
+}
+
 /// Cuts a program.
 pub(crate) fn simulate(
     asked: &Simulate,
@@ -139,20 +176,7 @@ pub(crate) fn simulate(
     let read = |text: &String| tooling::stated(text).map_err(|_| RequestFault::Tool(text.clone()));
     let stated = asked.tools.iter().map(read).collect::<Result<BTreeMap<_, _>, _>>()?;
     let row = row(asked.project.as_deref(), &asked.file, files)?;
-    let row = row.as_ref();
-    let stock = asked.stock.as_ref().or(row.and_then(|row| row.stock.as_ref()).map(Spanned::get_ref));
-    let own = row.map(|row| row.fixtures.iter().map(|own| own.get_ref().clone()).collect());
-    let fixtures = own.filter(|_| asked.fixtures.is_empty()).unwrap_or_else(|| asked.fixtures.clone());
-    let bench = Bench {
-        guessed: stock.is_none(),
-        stock: stock.map(|text| body(text, files)).transpose()?,
-        fixtures: fixtures
-            .iter()
-            .map(|text| Ok(Fixture { name: text.clone(), shape: body(text, files)? }))
-            .collect::<Result<_, Problem>>()?,
-        table: asked.table.or(row.and_then(|row| row.table.as_ref()).map(|table| *table.get_ref())),
-        cells: asked.cells.clamp(16, 8192),
-    };
+    let bench = bench(asked, row.as_ref(), files, messages)?;
     let one = with_datum(asked.one(), files)?;
     let Some(mut executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
     let (path, modes) = (moves(&executed.path)?, std::mem::take(&mut executed.modes));

@@ -37,7 +37,7 @@ use ncc_machines::reading::Side as Whose;
 use crate::colours;
 use crate::editing;
 use crate::program::{
-    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, plan, row, settings, side,
+    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, plan, row, settings, side, tell_absent,
 };
 use crate::project;
 use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};
@@ -136,6 +136,8 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     let row = row(asked.project.as_deref(), &asked.file, files)?;
     let [from, to] = [|row: &Programs| row.machine.clone(), |row: &Programs| row.to.clone()]
         .map(|side| row.as_ref().and_then(side));
+    tell_absent(asked.machine_from.as_deref(), from.as_ref(), files, messages)?;
+    tell_absent(asked.machine_to.as_deref(), to.as_ref(), files, messages)?;
     let machines = Machines {
         from: machine(asked.machine_from.as_deref(), asked.from.as_deref(), from.as_ref(), files)?,
         to: machine(asked.machine_to.as_deref(), asked.to.as_deref(), to.as_ref(), files)?,

@@ -233,6 +233,73 @@ fn a_project_file_is_read_back() {
     assert_eq!(engine.run(r#"{ "verb": "stated", "file": "part.nc", "project": "ncc.toml" }"#), 1);
 }
 
+/// A profile and a body that a project file names, and that no file is, are told; nothing else fails with them.
+#[test]
+fn what_a_project_file_names_may_be_away() {
+    let project = "[[programs]]\nfiles = \"part.nc\"\nmachine = \"machines/ours.toml\"\nstock = \"models/raw.stl\"\n\
+                   fixtures = [\"models/vise.stl\", \"X50:60 Y0:40 Z-10:0\"]\nto = \"old.toml\"\n";
+    let mut engine = Engine::default();
+    let part =
+        "%\nO1\nG21 G17 G90 G94 G54\nT1 M6\nS3000 M3\nG0 X10. Y10. Z5.\nG1 Z-2. F200.\nG0 Z5.\nM30\n%\n";
+    engine.put("part.nc", part.as_bytes().to_vec());
+    engine.put("ncc.toml", project.as_bytes().to_vec());
+    let told = |engine: &mut Engine, verb: &str, more: &str| {
+        let request = format!(
+            r#"{{ "verb": "{verb}", "file": "part.nc", "project": "ncc.toml", "from": "fanuc"{more} }}"#
+        );
+        let code = engine.run(&request);
+        let told = String::from_utf8_lossy(engine.output("messages").expect("messages")).into_owned();
+        (code, told)
+    };
+    let warning = |name: &str| format!("warning: ncc.toml names {name}, and there is no such file\n");
+    let machine = warning("machines/ours.toml");
+    for verb in ["check", "time", "path"] {
+        let (code, told) = told(&mut engine, verb, "");
+        assert!(code < 2 && told.matches(&machine).count() == 1, "{verb}: {code} {told}");
+    }
+    let (code, messages) = told(&mut engine, "simulate", r#", "cells": 64"#);
+    let all = ["machines/ours.toml", "models/raw.stl", "models/vise.stl"].map(warning);
+    assert!(code == 0 && all.iter().all(|text| messages.matches(text).count() == 1), "{code} {messages}");
+    let document: serde_json::Value =
+        serde_json::from_slice(engine.output("document").expect("a document")).expect("JSON");
+    let row = &document["programs"][0];
+    assert_eq!((&row["raw"]["guessed"], row["fixtures"].as_array().map(Vec::len)), (&true.into(), Some(1)));
+    let (code, messages) = told(&mut engine, "translate", r#", "to": "haas", "assume": true"#);
+    assert!(
+        code == 0 && messages.contains(&machine) && messages.contains(&warning("old.toml")),
+        "{messages}"
+    );
+    // What the request names must be there.
+    let (code, messages) = told(&mut engine, "path", r#", "machine": "machines/ours.toml""#);
+    assert!(code == 2 && !messages.contains("warning"), "{messages}");
+}
+
+/// The document of a simulation has all of a tool's shape that was stated, so that it can be stated again.
+#[test]
+fn the_shape_of_a_tool_is_told_in_full() {
+    let mut engine = Engine::default();
+    let part =
+        "%\nO1\nG21 G17 G90 G94 G54\nT1 M6\nS3000 M3\nG0 X10. Y10. Z5.\nG1 Z-2. F200.\nG0 Z5.\nM30\n%\n";
+    engine.put("part.nc", part.as_bytes().to_vec());
+    let mut detail = |tool: &str| {
+        let request =
+            r#"{ "verb": "simulate", "file": "part.nc", "from": "fanuc", "cells": 64, "tools": [TOOL] }"#;
+        let told = engine.run(&request.replace("TOOL", tool));
+        assert!(told < 2, "{tool}");
+        let document: serde_json::Value =
+            serde_json::from_slice(engine.output("document").expect("a document")).expect("JSON");
+        let tool = &document["programs"][0]["tools"][0];
+        ["corner", "angle", "end_diameter"].map(|key| tool[key].as_f64())
+    };
+    assert_eq!(detail("\"1=bull-nose,10,corner=2\""), [Some(2.0), None, None]);
+    assert_eq!(detail("\"1=drill,6.8,angle=140\""), [None, Some(140.0), None]);
+    assert_eq!(detail("\"1=chamfer,10,angle=90,end_diameter=1\""), [None, Some(90.0), Some(1.0)]);
+    assert_eq!(detail("\"1=taper,10,angle=3\""), [None, Some(3.0), None]);
+    // A guess is none of it.
+    assert_eq!(detail(""), [None; 3]);
+    assert_eq!(detail("\"1=bull-nose,10\""), [None; 3]);
+}
+
 /// A called program in another file, by its number, by the file's name, and by both.
 #[test]
 fn a_called_program_is_found_in_another_file() {

@@ -241,7 +241,7 @@ impl Simulation {
     fn look_leaning(&mut self, from: [f64; 3], own: &Move) {
         let path = Path { from, own, axes: &self.setup.tilts[usize::from(own.tilt) - 1] };
         let tool = &self.leaning[own.tool];
-        let parts = || [&tool.inside, &tool.shank, &tool.holder].into_iter().flatten();
+        let parts = || [&tool.inside, &tool.above, &tool.shank, &tool.holder].into_iter().flatten();
         let mut found = Vec::new();
         if own.way == Way::Rapid {
             found.extend(self.probe_leaning(&path, &tool.inside).map(|hit| (AlarmKind::Rapid, hit)));

@@ -1,9 +1,9 @@
 NC0908 = not simulated: a cut with the part turned
     .label = a rotary axis moves here, or has turned the part
-    .help = turn the tool with a tilted plane (G68.2 and G53.1, CYCLE800), or split the program here
+    .help = split the program here
 NC0908-leaning = not simulated: the tool still leans after a tilted plane
     .label = not all rotary axes have gone back since the plane
-    .help = move each rotary axis of the program back: `G0 A0. C0.`
+    .help = move each rotary axis back to its angle before the plane
 NC0908-tilted = not simulated: the tool is not upright on the tilted plane
     .label = neither G53.1 nor CYCLE800 has turned the tool here
     .help = turn the tool with the plane: `G53.1`, or the direction in CYCLE800

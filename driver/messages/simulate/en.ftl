@@ -9,7 +9,7 @@ simulate-removed = removed
 simulate-under = undercut
 simulate-under-volume = { $volume } mm³ taken under what stays: a picture from above does not show it
 simulate-planes = planes
-simulate-planes-tilted = the tool stands upright on { $planes ->
+simulate-planes-tilted = an upright tool moves on { $planes ->
         [one] a tilted plane
        *[other] { $planes } tilted planes
     }

@@ -9,12 +9,13 @@
 //!                                                    options = { decimal_point = "calculator" }
 //! ```
 //!
+//! A comment above a key or behind its value stays when the value changes; it goes with a key that is taken out.
 //! A row that is about other programs too is the user's, and is left as it is. Not here: where the file is.
 
 use std::collections::BTreeMap;
 
 use ncc_machines::project::{NAME, Programs, Project};
-use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
 use crate::problem::{Exit, Problem, problem};
 use crate::simulate::described::Shaped;
@@ -40,7 +41,7 @@ pub struct SetUp<'a> {
     pub fixtures: Option<&'a [String]>,
     /// Z of the table, mm.
     pub table: Option<Option<f64>>,
-    /// Tools, as the command line has them; of one without a shape the row goes: `4=`.
+    /// Tools, as the command line has them. `4=` takes the shape of tool 4 out of the file.
     pub tools: &'a [String],
 }
 
@@ -51,6 +52,12 @@ fn refused(form: &'static str, program: &str) -> Problem {
 /// Why nothing is written where several dialects fit: the row would answer which one, and nobody has.
 pub fn undecided(program: &str) -> Problem {
     refused("project-undecided", program)
+}
+
+/// That a project file names a file that is not at hand.
+pub fn absent(name: &str) -> Problem {
+    let message = problem("project-absent").text("name", name).text("file", NAME);
+    Problem::of(Exit::File, &message, None)
 }
 
 /// The name of a program as a pattern that matches nothing else.
@@ -110,13 +117,13 @@ pub fn answered(
     }
     for (key, side) in [("machine", from), ("to", to)] {
         let Some(side) = side else { continue };
-        put(row, key, side).map_err(|()| refused("project-named", program))?;
+        put(row, key, side).map_err(|form| refused(form, program))?;
     }
     put_set_up(row, set_up);
     if !set_up.tools.is_empty() {
         put_tools(row, set_up.tools).map_err(|()| refused("project-named", program))?;
     }
-    let written = document.to_string();
+    let written = with_endings_of(text, &document.to_string());
     // It says of the program what it should, and is sound.
     match Project::parse(&written, &ncc_dialects::builtin).map(|project| project.row(program)) {
         Ok(Ok(Some(_))) => Ok(written),
@@ -124,43 +131,104 @@ pub fn answered(
     }
 }
 
-/// Puts a side into a row. A profile that is named has its options in itself.
-fn put(row: &mut Table, key: &str, side: &Side) -> Result<(), ()> {
+/// Text with LF alone, with the line endings and the byte order mark of the text that it comes from: the TOML encoder
+/// drops both. Lines that are the same at the start and at the end keep their own, those between have that of the first.
+fn with_endings_of(text: &str, written: &str) -> String {
+    let mark = if text.starts_with('\u{feff}') { "\u{feff}" } else { "" };
+    let old: Vec<&str> = text.trim_start_matches('\u{feff}').split_inclusive('\n').collect();
+    let new: Vec<&str> = written.split_inclusive('\n').collect();
+    let is_same =
+        |(old, new): &(&&str, &&str)| old.trim_end_matches(['\r', '\n']) == new.trim_end_matches('\n');
+    let head = old.iter().zip(&new).take_while(is_same).count();
+    let rest = old[head..].iter().rev().zip(new[head..].iter().rev());
+    let tail = rest.take_while(is_same).count();
+    let ending = if old.first().is_some_and(|line| line.ends_with("\r\n")) { "\r\n" } else { "\n" };
+    let between = &new[head..new.len() - tail];
+    let between: String = between.iter().map(|line| line.replace('\n', ending)).collect();
+    [mark, &old[..head].concat(), &between, &old[old.len() - tail..].concat()].concat()
+}
+
+/// Puts a value at a key; blanks and comments around key and value stay.
+fn set(table: &mut dyn TableLike, key: &str, own: impl Into<Value>) {
+    let mut own = own.into();
+    match table.get_mut(key) {
+        Some(Item::Value(old)) => {
+            *own.decor_mut() = old.decor().clone();
+            *old = own;
+        }
+        Some(Item::Table(old)) => {
+            let around = old.decor().clone();
+            if let Some(behind) = around.suffix() {
+                own.decor_mut().set_suffix(behind.clone());
+            }
+            table.insert(key, Item::Value(own));
+            if let (Some(mut key), Some(above)) = (table.key_mut(key), around.prefix()) {
+                key.leaf_decor_mut().set_prefix(above.clone());
+            }
+        }
+        _ => drop(table.insert(key, Item::Value(own))),
+    }
+}
+
+/// Puts an empty table at a key of a row, with the comments of the value that was there.
+fn set_table(row: &mut Table, key: &str) {
+    let mut own = Table::new();
+    if let Some((name, Item::Value(old))) = row.get_key_value(key) {
+        if let Some(above) = name.leaf_decor().prefix().and_then(|above| above.as_str()) {
+            own.decor_mut().set_prefix(format!("\n{above}"));
+        }
+        if let Some(behind) = old.decor().suffix() {
+            own.decor_mut().set_suffix(behind.clone());
+        }
+    }
+    row.insert(key, Item::Table(own));
+}
+
+/// What answers have of a machine.
+const ANSWERS: [&str; 2] = ["dialect", "options"];
+
+/// Puts a side into a row. A profile that is named has its options in itself. Facts of a machine that the row states, tools
+/// above all, are never dropped for a name.
+fn put(row: &mut Table, key: &str, side: &Side) -> Result<(), &'static str> {
+    let stated = row.get(key).and_then(Item::as_table_like);
     if let Some(machine) = side.machine {
         if !side.options.is_empty() {
-            return Err(());
+            return Err("project-named");
         }
-        row.insert(key, value(machine));
+        if stated.is_some_and(|own| own.iter().any(|(key, _)| !ANSWERS.contains(&key))) {
+            return Err("project-machine-stated");
+        }
+        set(row, key, machine);
         return Ok(());
     }
-    if row.get(key).is_none_or(|own| !own.is_table_like()) {
-        row.insert(key, Item::Table(Table::new()));
+    if stated.is_none() {
+        set_table(row, key);
     }
-    let own = row.get_mut(key).and_then(Item::as_table_like_mut).ok_or(())?;
-    own.insert("dialect", value(side.dialect));
+    let own = row.get_mut(key).and_then(Item::as_table_like_mut).ok_or("project-named")?;
+    set(own, "dialect", side.dialect);
     let options: InlineTable =
         side.options.iter().map(|(name, chosen)| (name.as_str(), chosen.as_str())).collect();
     match side.options.is_empty() {
         true => drop(own.remove("options")),
-        false => drop(own.insert("options", value(options))),
+        false => set(own, "options", options),
     }
     Ok(())
 }
 
 fn put_set_up(row: &mut Table, set_up: &SetUp) {
-    let mut put = |key: &str, own: Option<Item>| match own {
-        Some(own) => drop(row.insert(key, own)),
+    let mut put = |key: &str, own: Option<Value>| match own {
+        Some(own) => set(row, key, own),
         None => drop(row.remove(key)),
     };
     if let Some(stock) = set_up.stock {
-        put("stock", (!stock.is_empty()).then(|| value(stock)));
+        put("stock", (!stock.is_empty()).then(|| stock.into()));
     }
     if let Some(fixtures) = set_up.fixtures {
         let all: Array = fixtures.iter().map(String::as_str).collect();
-        put("fixtures", (!fixtures.is_empty()).then(|| value(all)));
+        put("fixtures", (!fixtures.is_empty()).then(|| all.into()));
     }
     if let Some(table) = set_up.table {
-        put("table", table.map(value));
+        put("table", table.map(Value::from));
     }
 }
 
@@ -198,10 +266,7 @@ fn put_tools(row: &mut Table, tools: &[String]) -> Result<(), ()> {
             }
         };
         let named = shape.split(',').next().unwrap_or_default();
-        if tool.get("shape").and_then(Item::as_str).is_some_and(|own| own != named) {
-            ["corner", "angle", "end_diameter"].iter().for_each(|key| drop(tool.remove(key)));
-        }
-        tool.insert("shape", value(named));
+        set(tool, "shape", named);
         let of_shape = |of: fn(&Shaped) -> Option<f64>| described.shape.as_ref().and_then(of);
         for (key, length) in [
             ("diameter", described.diameter),
@@ -213,8 +278,9 @@ fn put_tools(row: &mut Table, tools: &[String]) -> Result<(), ()> {
             ("holder", described.holder),
             ("holder_from", described.holder_from),
         ] {
-            if let Some(length) = length {
-                tool.insert(key, value(length));
+            match length {
+                Some(length) => set(tool, key, length),
+                None => drop(tool.remove(key)),
             }
         }
     }
@@ -305,5 +371,67 @@ mod tests {
         assert_eq!(put(&other, &["4="]).as_deref(), Ok(text.as_str()));
         let named = "[[programs]]\nfiles = \"part.nc\"\nmachine = \"haas-vf2\"\n";
         assert!(put(named, &["4=ball,8"]).is_err());
+    }
+
+    #[test]
+    fn a_length_that_a_stated_tool_lacks_goes() {
+        let row = "[[programs]]\nfiles = \"part.nc\"\n[programs.machine]\ndialect = \"fanuc\"\n\
+            [[programs.machine.tool]]\nnumber = 1\nname = \"ours\"\nshape = \"bull-nose\"\ndiameter = 10.0\n\
+            corner = 2.0\nflute = 20.0\nshank = 10.0\nholder = 40.0\nholder_from = 50.0\n";
+        let own = SetUp { tools: &["1=bull-nose,10,corner=2".to_owned()], ..SetUp::default() };
+        let (kept, _) = row.split_once("flute").expect("a flute");
+        assert_eq!(set_up(row, &own).as_deref(), Ok(kept));
+    }
+
+    /// A name in the place of a machine's table would take with it what the table states.
+    #[test]
+    fn a_machine_that_is_stated_is_not_dropped_for_a_name() {
+        let none = BTreeMap::new();
+        let named = Side { dialect: "haas", machine: Some("haas-vf2"), options: &none };
+        let put = |text: &str| answered(text, "part.nc", Some(&named), None, &SetUp::default());
+        let told = |text: &str| put(text).map_err(|problem| problem.message);
+        let tool = "\n[[programs.machine.tool]]\nnumber = 1\nshape = \"ball\"\ndiameter = 8.0\n";
+        let refused = refused("project-machine-stated", "part.nc").message;
+        assert_eq!(told(&format!("{ROW}{tool}")), Err(refused));
+        let text = "[[programs]]\nfiles = \"part.nc\"\n# the old one\n[programs.machine] # now\ndialect = \"haas\"\n";
+        let name = "[[programs]]\nfiles = \"part.nc\"\n# the old one\nmachine = \"haas-vf2\" # now\n";
+        assert_eq!(put(text).as_deref(), Ok(name));
+    }
+
+    #[test]
+    fn comments_and_line_endings_stay() {
+        let fixtures = ["D20 X5 Y5 Z0:10".to_owned()];
+        let own = SetUp {
+            stock: Some("X0:9 Y0:9 Z-5:0"),
+            fixtures: Some(&fixtures),
+            table: Some(Some(-20.5)),
+            tools: &["1=ball,8".to_owned()],
+        };
+        let text = "# ours\n[[programs]]\nfiles = \"part.nc\"\n# sawn\nstock  = \"X0:8 Y0:8 Z-5:0\" # roughly\n\
+            # held by\nfixtures = [ \"vise.stl\" ] # the vice\ntable = -15.5  # vice\n\n# the mill\n[programs.machine]\n\
+            dialect = \"fanuc\"\n[[programs.machine.tool]]\nnumber = 1\n# new\nshape = \"flat\" # ground\n\
+            diameter = 6.0 # worn\n# the end\n";
+        let changed = [
+            ("X0:8 Y0:8", "X0:9 Y0:9"),
+            ("[ \"vise.stl\" ]", "[\"D20 X5 Y5 Z0:10\"]"),
+            ("-15.5", "-20.5"),
+            ("flat", "ball"),
+            ("6.0", "8.0"),
+        ];
+        let new = changed.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
+        assert_eq!(set_up(text, &own).as_deref(), Ok(new.as_str()));
+        let [text, new] = [text, &new].map(|text| text.replace('\n', "\r\n"));
+        assert_eq!(set_up(&text, &own).as_deref(), Ok(new.as_str()));
+        // Each line has its own ending; a new line has that of the first.
+        let table = SetUp { table: Some(Some(2.5)), ..SetUp::default() };
+        let mixed = "\u{feff}# ours\n[[programs]]\r\nfiles = \"part.nc\"\r\ntable = 1.5\r\n# the end\r\n";
+        let new = mixed.replace("1.5\r\n", "2.5\n");
+        assert_eq!(set_up(mixed, &table).as_deref(), Ok(new.as_str()));
+        let named = "[[programs]]\nfiles = \"part.nc\"\n# the mill\nmachine = \"haas-vf2\" # bought\n";
+        let stated = written(named, &[]).expect("written");
+        assert!(
+            stated.contains("\n# the mill\n[programs.machine] # bought\ndialect = \"fanuc\"\n"),
+            "{stated}"
+        );
     }
 }

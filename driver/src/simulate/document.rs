@@ -10,7 +10,7 @@ use super::compare::Between;
 use super::cut::CutProgram;
 use super::surroundings::Surroundings;
 use super::told::message;
-use super::tooling::Known;
+use super::tooling::{Fitted, Known};
 use crate::render::Told;
 use crate::render::json::JsonPlace;
 use crate::render::messages::message::Value;
@@ -108,6 +108,8 @@ struct Tool {
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<u32>,
     shape_guessed: bool,
+    #[serde(flatten)]
+    detail: Detail,
     /// Radius and height above the tip.
     outline: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -119,6 +121,17 @@ struct Tool {
     removed: f64,
     cutting: f64,
     depth: f64,
+}
+
+/// What a shape has besides its diameter, as profiles have it: mm and degrees.
+#[derive(Default, Serialize)]
+struct Detail {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    corner: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angle: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    end_diameter: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -182,6 +195,23 @@ fn shape(own: &Shape) -> &'static str {
     }
 }
 
+/// The rest of a shape that is no guess; a corner or an end of no size is none.
+fn detail(own: &Fitted) -> Detail {
+    let size = |value: f64| Some(micro(value)).filter(|value| *value > 0.0);
+    match own.shape {
+        _ if own.shape_guessed => Detail::default(),
+        Shape::BullNose { corner } => Detail { corner: size(corner), ..Detail::default() },
+        Shape::Drill { point } => Detail { angle: size(point), ..Detail::default() },
+        Shape::Chamfer { tip, angle } => {
+            Detail { angle: size(angle), end_diameter: size(tip), ..Detail::default() }
+        }
+        Shape::Taper { corner, angle } => {
+            Detail { corner: size(corner), angle: size(angle), ..Detail::default() }
+        }
+        Shape::Flat | Shape::Ball | Shape::Profile(_) | Shape::Lollipop | Shape::TSlot => Detail::default(),
+    }
+}
+
 /// The form of a body.
 fn form(body: &Stock) -> &'static str {
     match body {
@@ -220,6 +250,7 @@ fn program<'a>(about: About<'a>, cut: &CutProgram, told: &[Told]) -> Program<'a>
             known,
             line,
             shape_guessed: own.shape_guessed,
+            detail: detail(own),
             outline: own.tool.cutter.outline().into_iter().map(|point| point.map(micro)).collect(),
             flute: own.tool.flute.map(micro),
             shank: own.tool.shank.map(|radius| micro(radius * 2.0)),

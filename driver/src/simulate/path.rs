@@ -53,7 +53,7 @@ pub struct Remark {
 pub struct Path {
     /// Where the tip is before the first one, X Y Z in mm.
     pub start: [f64; 3],
-    /// Axes of the tilted planes on which it moves.
+    /// Axes of the tilted planes on which an upright tool moves.
     pub tilts: Vec<Axes>,
     /// The moves; their tools are places in [`Path::tools`].
     pub moves: Vec<Move>,

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! No program says where the tip is when rotary axes have turned the tool or the part: the kinematics are the machine's. So
-//! nobody knows it from there on, until the program has stated X, Y and Z of the plane, and again after the plane, until it has
-//! stated those of the part. Nothing is cut until then, except that a tool of which only the height is not known comes straight
+//! ncc does not know it from there on, until the program has stated X, Y and Z of the plane, and again after the plane, until it
+//! has stated those of the part. Nothing is cut until then, except that a tool of which only the height is not known comes straight
 //! down from as high as it ever is on the plane.
 
 use ncc_exec::{Event, Movement, TiltedPlane};
@@ -23,7 +23,7 @@ const Z: usize = 2;
 /// A plane that is no more tilted than this is not: of its directions.
 const LEVEL: f64 = 1e-12;
 
-/// The plane in force.
+/// The active plane.
 #[derive(Debug)]
 struct Plane {
     axes: Axes,
@@ -33,13 +33,17 @@ struct Plane {
     program: [f64; 3],
     /// Where the rotary axes stood when the tool was turned upright on it; `None` before that.
     upright: Option<[Nanos; 3]>,
+    /// Whether the tool is upright on it.
+    is_upright: bool,
+    /// Its number among [`Planes::tilts`], from 1; 0 until the tool moves on it.
+    tilt: u16,
     /// Which of its coordinates of the tip are known.
     known: [bool; 3],
     /// Where the tip is, along its axes.
     at: [f64; 3],
     /// The greatest Z that is known.
     top: f64,
-    /// Moves that end at a Z that nobody knows, and their X and Y.
+    /// Moves that end at a Z that ncc does not know, and their X and Y.
     highs: Vec<(usize, [f64; 2])>,
 }
 
@@ -59,10 +63,10 @@ pub(super) struct Placed {
 /// All planes of a program.
 #[derive(Debug, Default)]
 pub(super) struct Planes {
-    /// Axes of those on which it cuts.
+    /// Axes of the tilted planes on which an upright tool moves.
     pub(super) tilts: Vec<Axes>,
     now: Option<Plane>,
-    /// Which of X, Y and Z nobody knows after a plane.
+    /// Which of X, Y and Z ncc does not know after a plane.
     pub(super) lost: [bool; 3],
     /// Whether a plane has turned the tool, or the part, and nothing has turned it back.
     turned: bool,
@@ -71,7 +75,7 @@ pub(super) struct Planes {
 }
 
 impl Planes {
-    /// A plane comes into force; `at` is where the tip is.
+    /// A plane becomes active; `at` is where the tip is.
     pub(super) fn set(&mut self, plane: &TiltedPlane, tip: &Tip, at: [f64; 3], moves: &mut [Move]) {
         self.clear(moves);
         let axes = plane.axes;
@@ -83,6 +87,8 @@ impl Planes {
             zero,
             program,
             upright: None,
+            is_upright: false,
+            tilt: 0,
             known: [false; 3],
             at,
             top: f64::NEG_INFINITY,
@@ -90,7 +96,7 @@ impl Planes {
         });
     }
 
-    /// The plane is over; the moves on it whose height nobody knows are as high as it ever is there.
+    /// The plane is over; the moves on it whose height ncc does not know are as high as it ever is there.
     pub(super) fn clear(&mut self, moves: &mut [Move]) {
         let Some(plane) = self.now.take() else { return };
         self.lost = [true; 3];
@@ -104,6 +110,7 @@ impl Planes {
     pub(super) fn orient(&mut self, event: &Event) {
         let Some(plane) = &mut self.now else { return };
         plane.upright = Some(rotary(&event.end));
+        plane.is_upright = true;
         plane.known = [false; 3];
         // On a plane that is turned by nothing all rotary axes stand at their zeros.
         self.turned = !plane.is_straight();
@@ -136,7 +143,7 @@ impl Planes {
         }
     }
 
-    /// Whether a block states coordinates that nobody knew.
+    /// Whether a block states coordinates that ncc did not know.
     pub(super) fn finds(&self, tip: &Tip) -> bool {
         (0..3).any(|axis| match &self.now {
             Some(plane) => tip.stated[axis] && !plane.known[axis],
@@ -173,8 +180,11 @@ impl Planes {
         let at = [0, 1, 2].map(|n| if plane.known[n] { along(event.end[n], n) } else { plane.at[n] });
         let [was_known, known] = [before, plane.known].map(|known| known == [true; 3]);
         let comes_down = before[..2] == [true; 2] && known && movement == Movement::Rapid;
-        let mut tilt = 0;
+        // The kernel has no moves of a tool that is not upright on its plane, nor of one that a rotary axis turns.
+        let was_upright = plane.is_upright;
+        plane.is_upright = plane.upright == Some(rotary(&event.end));
         let mut way = match movement {
+            _ if !(was_upright && plane.is_upright) => Way::Away,
             Movement::Rapid if was_known && known || comes_down => Way::Rapid,
             Movement::Feed if was_known && known => Way::Feed,
             Movement::Arc { plane: of, turn, centre, .. } if was_known && known => {
@@ -194,14 +204,14 @@ impl Planes {
             Some(_) if !(was_known && known) => Some(Unsimulated::Unplaced),
             Some(_) => None,
         };
-        if plane.axes[2][2] < 1.0 - LEVEL || is_arc_of_another_plane {
-            let known = self.tilts.iter().position(|axes| *axes == plane.axes);
-            match u16::try_from(known.unwrap_or(self.tilts.len()) + 1) {
-                Ok(number) => tilt = number,
-                Err(_) => why = why.or(Some(Unsimulated::Tilted)),
+        let mut tilt = 0;
+        if plane.is_upright && (plane.axes[2][2] < 1.0 - LEVEL || is_arc_of_another_plane) {
+            if plane.tilt == 0 {
+                plane.tilt = number_of(&plane.axes, &mut self.tilts);
             }
-            if known.is_none() {
-                self.tilts.push(plane.axes);
+            tilt = plane.tilt;
+            if tilt == 0 {
+                why = why.or(Some(Unsimulated::Tilted));
             }
         } else if let Way::Arc { centre, .. } = &mut way {
             // Upright, an arc is one of X and Y of the part.
@@ -217,6 +227,16 @@ impl Planes {
         plane.at = at;
         Some(Placed { way, end: plane.place(at), tilt, why, high })
     }
+}
+
+/// The number of a plane among others, from 1, put to them where it is new; 0 where there are too many.
+fn number_of(axes: &Axes, all: &mut Vec<Axes>) -> u16 {
+    let known = all.iter().position(|own| own == axes);
+    let number = u16::try_from(known.unwrap_or(all.len()) + 1).unwrap_or(0);
+    if known.is_none() && number != 0 {
+        all.push(*axes);
+    }
+    number
 }
 
 impl Plane {

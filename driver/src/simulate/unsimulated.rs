@@ -9,6 +9,6 @@ pub enum Unsimulated {
     Leaning,
     /// It cuts on a tilted plane on which it has not turned the tool upright.
     Tilted,
-    /// It cuts where nobody knows where the tool is, as a plane has come or gone.
+    /// It cuts from a place that ncc does not know, as a plane has come or gone.
     Unplaced,
 }

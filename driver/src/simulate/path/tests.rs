@@ -137,6 +137,18 @@ fn a_tool_that_is_not_upright_on_the_plane_is_refused() {
     assert_eq!(why(&on_plane(&turned)), Some(Unsimulated::Rotary));
 }
 
+/// Before the tool is upright on a plane, and while it is not, no move is one of a tool that leans as the plane does.
+#[test]
+fn rapids_are_those_of_a_tool_that_is_upright_on_the_plane() {
+    let path = on_plane("G0 X6. Y8. Z50.\nG0 Z2.\nG53.1\nG0 X6. Y8. Z50.\nG0 Z2.\nG0 B12.\nG0 Z50.\n");
+    assert_eq!(why(&path), None);
+    let ways: Vec<_> = path.moves[path.moves.len() - 6..].iter().map(|own| (own.way, own.tilt)).collect();
+    let away = (Way::Away, 0);
+    assert_eq!(ways, [away, away, (Way::Away, 1), (Way::Rapid, 1), away, away]);
+    // No tool moves upright on this plane.
+    assert_eq!(on_plane("G0 X6. Y8. Z50.\nG0 Z2.\n").tilts.len(), 0);
+}
+
 /// A place of the machine says nothing of a plane.
 #[test]
 fn a_cut_from_a_place_that_nobody_knows_is_refused() {
