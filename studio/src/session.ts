@@ -9,7 +9,7 @@ import { readBetween, readCut, readHeights, type Between, type Cut, type Heights
 import { readPath, type Path } from "./engine/path";
 import { bytesOf, type Choices, type Project } from "./projects/project";
 import { ANSWERS } from "./projects/zip";
-import { setUpOf, sideOf, type SetUp, type Stated } from "./setup/stated";
+import { setUpOf, sideOf, SIDES, type SetUp, type Side, type SideName, type Stated } from "./setup/stated";
 import { Signal } from "./ui/signal";
 
 /** What a check has found. */
@@ -87,10 +87,8 @@ export class Session {
   private cutLasted = 0;
   private readonly known = new Map<string, Promise<Words | undefined>>();
   private seeking = false;
-  /** The project file that `stated` tells of, and the program. */
-  private read = "";
-  /** How often it was read: what a newer reading overtakes tells nothing. */
-  private readings = 0;
+  /** The reading that `stated` tells of, or will: what a newer one overtakes tells nothing. */
+  private reading: { key: string; beside: Map<string, Uint8Array | undefined>; done: Promise<void> } | undefined;
   private wantedMoves = Infinity;
   private shownMoves = Infinity;
   /** Texts that the quick engine has, by their files. */
@@ -127,7 +125,8 @@ export class Session {
     this.pathTold.set("");
     this.translation.set(undefined);
     this.dialect.set("");
-    this.statedTold = this.read = "";
+    this.statedTold = "";
+    this.reading = undefined;
     this.stated.set(undefined);
     this.change();
   }
@@ -170,10 +169,17 @@ export class Session {
     return quick.run({ verb, ...this.request(project), ...more });
   }
 
-  /** The same, with other files beside the text. */
+  /** The same, with other files beside the text, which are empty again afterwards: of those that its `ncc.toml` names there is no
+   * need. */
   async askAmong(files: [id: string, name: string, bytes: Uint8Array][], verb: string, more: Record<string, unknown>): Promise<Answer | undefined> {
-    for (const [, name, bytes] of files) this.engines?.quick.put(name, bytes);
-    return this.ask(verb, more);
+    const quick = this.engines?.quick;
+    const others = files.filter(([, name]) => !this.reading?.beside.has(name));
+    for (const [, name, bytes] of others) quick?.put(name, bytes);
+    try {
+      return await this.ask(verb, more);
+    } finally {
+      for (const [, name] of others) quick?.put(name, new Uint8Array());
+    }
   }
 
   /** What is set up for the open program: what was chosen, and else what its `ncc.toml` states. */
@@ -183,25 +189,24 @@ export class Session {
   }
 
   /** The text of a project file with what was chosen for the program, or with parts of its set-up alone; `answers` is the one
-   * that there is. */
-  async answers(answers: string | undefined, set?: Partial<SetUp> & { tools?: string[] }): Promise<Answer | undefined> {
+   * that there is, `without` an option that is taken back. */
+  async answers(answers: string | undefined, set?: Partial<SetUp> & { tools?: string[] }, without?: readonly [SideName, string]): Promise<Answer | undefined> {
     const [project, quick] = [this.project.get(), this.engines?.quick];
     if (!project || !quick) return undefined;
-    const { choices } = project;
-    const stated = this.stated.get();
-    const own = sideOf(choices.from, choices.machine, stated?.machine);
-    const target = sideOf(choices.to, choices.machineTo, stated?.to);
+    const sides = SIDES.map((side) => sideOf(side, project.choices, this.stated.get()));
+    const [own, target] = sides as [Side, Side];
+    if (without) delete (without[0] === "fromOption" ? own : target).options[without[1]];
     const file = project.disk?.name ?? project.file;
     quick.put(file, bytesOf(project, this.text()));
     if (answers !== undefined) quick.put(ANSWERS, new TextEncoder().encode(answers));
     const known = answers === undefined ? {} : { project: ANSWERS };
-    const side = { ...given({ from: own.dialect, machine_from: own.machine }), from_option: choices.fromOption };
+    const side = { ...given({ from: own.dialect, machine_from: own.machine }), from_option: own.options };
     if (set) {
       const table = set.table === undefined ? {} : { table: set.table ? [Number(set.table)] : [] };
       // A tool stands with a machine.
       return quick.run({ verb: "project", file, ...known, ...set, ...table, ...(set.tools && side) });
     }
-    const to = { ...given({ to: target.dialect, machine_to: target.machine }), to_option: choices.toOption };
+    const to = { ...given({ to: target.dialect, machine_to: target.machine }), to_option: target.options };
     return quick.run({ verb: "project", file, ...known, ...side, ...to });
   }
 
@@ -214,7 +219,8 @@ export class Session {
     const file = `translated-${project.file}`;
     heavy.put(file, new TextEncoder().encode(output));
     const { choices } = project;
-    const compare = { file, ...given({ from: to, machine: choices.machineTo }), from_option: choices.toOption };
+    const { machine, options } = sideOf("toOption", choices, this.stated.get());
+    const compare = { file, ...given({ from: to, machine }), from_option: options };
     const one = { ...this.request(project), ...bench(choices) };
     try {
       const answer = await heavy.run({ verb: "simulate", ...one, cells: this.cells(choices), compare });
@@ -286,8 +292,30 @@ export class Session {
   async readStated(project: Project): Promise<void> {
     const { engines } = this;
     const key = project.answers === undefined ? "" : `${project.id} ${project.answers}`;
-    if (!engines || key === this.read) return;
-    const own = ++this.readings;
+    if (!engines) return;
+    if (key === this.reading?.key) return this.reading.done;
+    const beside = new Map<string, Uint8Array | undefined>();
+    const own = { key, beside, done: Promise.resolve() };
+    this.reading = own;
+    own.done = this.readAnew(engines, project, beside, () => own === this.reading);
+    // One that failed is begun again.
+    own.done.catch(() => own === this.reading && (this.reading = undefined));
+    return own.done;
+  }
+
+  /** Files beside the program may be others: where one that its `ncc.toml` names is, all is read again. */
+  async lookBeside(): Promise<void> {
+    const { reading } = this;
+    for (const [name, bytes] of reading?.beside ?? []) {
+      const now = await this.beside(name);
+      if (reading !== this.reading) return;
+      if (isSame(bytes, now)) continue;
+      this.reading = undefined;
+      return this.change();
+    }
+  }
+
+  private async readAnew(engines: Engines, project: Project, beside: Map<string, Uint8Array | undefined>, current: () => boolean): Promise<void> {
     const ask = async () => {
       const answer = await engines.quick.run({ verb: "stated", file: project.file, project: ANSWERS });
       return [answer.json<Stated>("document"), answer.code === 0 ? "" : answer.text("messages").trim()] as const;
@@ -297,13 +325,14 @@ export class Session {
     if (project.answers !== undefined) {
       put(ANSWERS, new TextEncoder().encode(project.answers));
       [stated, told] = await ask();
-      const files = await Promise.all((stated?.files ?? []).map(async (name) => [name, await this.beside(name)] as const));
-      const found = files.filter((file): file is readonly [string, Uint8Array] => file[1] !== undefined);
+      for (const name of stated?.files ?? []) beside.set(name, await this.beside(name));
+      // A newer reading has its own text in the engines.
+      if (!current()) return;
+      const found = [...beside].filter((file): file is [string, Uint8Array] => file[1] !== undefined);
       found.forEach(([name, bytes]) => put(name, bytes));
       if (found.length > 0) [stated, told] = await ask();
     }
-    if (own !== this.readings || project.id !== this.project.get()?.id) return;
-    this.read = key;
+    if (!current() || project.id !== this.project.get()?.id) return;
     this.statedTold = told;
     this.stated.set(stated);
   }
@@ -387,6 +416,10 @@ export class Session {
       this.seeking = false;
     }
   }
+}
+
+function isSame(one: Uint8Array | undefined, other: Uint8Array | undefined): boolean {
+  return one?.length === other?.length && (one ?? []).every((byte, at) => byte === other?.[at]);
 }
 
 function linesOf(bytes: Uint8Array | undefined): Uint32Array | undefined {

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { line, pixels, placeOf, ready, type } from "./browser.mjs";
 import { tests, value } from "./pages.mjs";
-import { SQUARE, long } from "./programs.mjs";
+import { STL, SQUARE, long } from "./programs.mjs";
 
 const { page, both } = tests();
 const data = (own, name) => own.getAttribute("#canvas", `data-${name}`);
@@ -382,12 +382,6 @@ for (const [name, options] of [["wide and light", {}], ["wide and dark", { color
     assert.deepEqual(await look(), []);
   });
 }
-
-/** A body of triangles: a tetrahedron, as text. */
-const STL = (([a, b, c, d]) => {
-  const facet = (...corners) => `facet normal 0 0 0\nouter loop\n${corners.map((corner) => `vertex ${corner.join(" ")}\n`).join("")}endloop\nendfacet\n`;
-  return `solid clamp\n${facet(a, c, b)}${facet(a, b, d)}${facet(b, c, d)}${facet(c, a, d)}endsolid clamp\n`;
-})([[45, -15, -20], [70, -15, -20], [45, 15, -20], [45, -15, 10]]);
 
 both("fixtures are stated, drawn, kept, and a tool that touches one is told", {}, async (own) => {
   await slot(own);

@@ -75,3 +75,9 @@ END1
 M99
 %
 `;
+
+/** A body of triangles: a tetrahedron, as text. */
+export const STL = (([a, b, c, d]) => {
+  const facet = (...corners) => `facet normal 0 0 0\nouter loop\n${corners.map((corner) => `vertex ${corner.join(" ")}\n`).join("")}endloop\nendfacet\n`;
+  return `solid clamp\n${facet(a, c, b)}${facet(a, b, d)}${facet(b, c, d)}${facet(c, a, d)}endsolid clamp\n`;
+})([[45, -15, -20], [70, -15, -20], [45, 15, -20], [45, -15, 10]]);

@@ -9,7 +9,7 @@ import { strFromU8, strToU8, unzipSync, zipSync } from "fflate";
 import { NCC, studio } from "./binary.mjs";
 import { line, open, ready, type } from "./browser.mjs";
 import { tests, value } from "./pages.mjs";
-import { SQUARE } from "./programs.mjs";
+import { ASKS, SQUARE, STL } from "./programs.mjs";
 
 const { both, world } = tests();
 const data = (own, name) => own.getAttribute("#canvas", `data-${name}`);
@@ -91,6 +91,17 @@ both("what a project's ncc.toml states is shown and used, and what is changed go
   });
 });
 
+both("bodies in ncc.toml are read by their letters, and what has no fields stands as it is", {}, async (own) => {
+  const row = '[[programs]]\nfiles = "square.nc"\nstock = "Z-20:0, D90"\nfixtures = ["Z-15:-5 X60:70 Y-20:60", "X60:70 Y0:9"]\n';
+  await take(own, "square", { "square/square.nc": SQUARE, "square/ncc.toml": row });
+  await own.click("#tab-setup");
+  const fields = (names) => Promise.all(names.map((name) => own.getByLabel(name, { exact: true }).inputValue()));
+  await own.getByLabel("Raw part D", { exact: true }).waitFor();
+  assert.deepEqual(await fields(["D", "X", "Y", "Z−", "Z+"].map((name) => `Raw part ${name}`)), ["90", "0", "0", "-20", "0"]);
+  assert.deepEqual(await fields(["X−", "X+", "Y−", "Y+", "Z−", "Z+"].map((name) => `Fixture 1 ${name}`)), ["60", "70", "-20", "60", "-15", "-5"]);
+  assert.match(await value(own, "#fixtures"), /X60:70 Y0:9/);
+});
+
 both("an ncc.toml with faults is told, and the program is read without it", {}, async (own) => {
   await take(own, "square", { "square/square.nc": SQUARE, "square/ncc.toml": "[[programs]\n" });
   await own.click("#tab-setup");
@@ -125,6 +136,54 @@ both("the zero of the part on the machine shows its travel, and what leaves it",
   await own.waitForTimeout(300);
   await ready(own);
   await own.locator("#problems", { hasText: /travel/ }).waitFor({ state: "attached" });
+});
+
+test("ncc studio: what ncc.toml states is followed, and no option of before is kept over it", { skip: !NCC && "NCC names no binary" }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "ncc-stated-"));
+  const [file, program] = [join(folder, "ncc.toml"), join(folder, "asks.nc")];
+  const row = (option) => `[[programs]]\nfiles = "asks.nc"\nstock = "raw.stl"\nmachine = { dialect = "fanuc"${option} }\nto = { dialect = "siemens" }\n`;
+  const of = (point) => row(`, options = { decimal_point = "${point}" }`);
+  writeFileSync(program, ASKS);
+  writeFileSync(join(folder, "raw.stl"), STL);
+  writeFileSync(file, of("calculator"));
+  const server = await studio(folder);
+  try {
+    const { page: own, faults, context } = await open(world(), { address: server.address });
+    const shows = async (choice, depth, option) => {
+      await own.waitForFunction((wanted) => document.querySelector("#choices").textContent.includes(wanted), choice);
+      await own.locator("#output .cm-line", { hasText: depth }).waitFor();
+      assert.equal((await value(own, "#choices")).includes("decimal_point"), option);
+      await ready(own);
+    };
+    await own.click("#tab-translate");
+    await shows("decimal_point = calculator", /Z-5[. ]/, true);
+    // The program is another one in the same moment.
+    writeFileSync(program, ASKS.replace("X30.5", "X31.5"));
+    writeFileSync(file, of("increment"));
+    await shows("decimal_point = increment", /Z-0?\.005/, true);
+    await own.locator("#editor .cm-line", { hasText: "X31.5" }).waitFor();
+    await own.reload();
+    await ready(own);
+    await own.click("#tab-translate");
+    await shows("decimal_point = increment", /Z-0?\.005/, true);
+    // What is written states it still; a file of triangles has no fields.
+    await own.click("#tab-setup");
+    assert.equal(await own.getByLabel("Raw part", { exact: true }).inputValue(), "raw.stl");
+    assert.equal(await own.getByLabel("Raw part X+", { exact: true }).count(), 0);
+    await own.getByLabel("Table at Z", { exact: true }).fill("-40");
+    await own.keyboard.press("Tab");
+    await own.locator("#setup-told", { hasText: "Written to ncc.toml" }).waitFor();
+    assert.match(readFileSync(file, "utf8"), /stock = "raw.stl"\n[^]*"increment"[^]*table = -40/);
+    // Taken back, it does not hold; nor is it in the file.
+    await own.click("#tab-translate");
+    await own.locator("#choices button", { hasText: "decimal_point" }).click();
+    await own.locator("#questions button", { hasText: /^-5 mm$/ }).waitFor();
+    assert.doesNotMatch(readFileSync(file, "utf8"), /decimal_point/);
+    assert.deepEqual(faults, []);
+    await context.close();
+  } finally {
+    server.end();
+  }
 });
 
 test("ncc studio: a folder's ncc.toml is read, followed and written", { skip: !NCC && "NCC names no binary" }, async () => {

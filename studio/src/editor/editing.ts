@@ -45,6 +45,9 @@ function placesOf({ places }: Names): Place[] {
   return found;
 }
 
+/** A word may be the name of a program in another file, as `L100` is one: which are, the compiler knows only with that file. */
+const WORD = /[A-Z_]{2}|\bL\d/i;
+
 export class Editing {
   private readonly told = byId("editor-told");
   private readonly dialog = byId<HTMLDialogElement>("editor-dialog");
@@ -67,7 +70,7 @@ export class Editing {
   /** To where the name at the cursor gets its meaning, in another program too; from there to where it is used next. */
   async goTo(): Promise<void> {
     const found = await this.nameHere();
-    const calls = !found || (found.sort === "program" && !found.places.some((place) => place.defines));
+    const calls = this.mayCall && (!found || (found.sort === "program" && !found.places.some((place) => place.defines)));
     if (calls && (await this.goToCalled())) return;
     if (!found) return;
     const { here, places } = found;
@@ -131,6 +134,8 @@ export class Editing {
   }
 
   private lines = 0;
+  /** Whether the line at the cursor may call a program: other programs are read for no other line. */
+  private mayCall = false;
 
   private changed(): string {
     return this.lines === 0 ? say("nothingToChange") : say("linesChanged", { count: this.lines });
@@ -148,8 +153,11 @@ export class Editing {
     const { line, column } = this.editor.place;
     const answer = await this.session.ask("names", {});
     const names = answer?.json<Names>("document");
+    this.mayCall = false;
     if (!names) return void this.tell((answer?.text("messages") ?? "").trim());
     const all = placesOf(names);
+    const isCall = (place: Place) => place.line === line && !place.defines && names.names[place.name]?.sort === "program";
+    this.mayCall = all.some(isCall) || WORD.test((this.editor.text.split("\n")[line - 1] ?? "").replace(/[(;].*/, ""));
     // A sign in front belongs to the name for whoever points at it.
     const near = all.filter((place) => place.line === line && place.from - 1 <= column && column <= place.to);
     const here = near.find((place) => place.from <= column) ?? near[0] ?? this.only(all, line);

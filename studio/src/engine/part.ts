@@ -14,6 +14,9 @@ export interface Tool {
   /** Where the diameter comes from: `stated`, `profile`, `comment`, `guess`. */
   known: string;
   shape_guessed: boolean;
+  /** mm, of a bull-nose; degrees, of a drill, a chamfer or a taper. */
+  corner?: number;
+  angle?: number;
   /** Radius and height above the tip of what cuts, mm, from the axis outwards. */
   outline: [number, number][];
   /** Length of what cuts, and diameter above that, mm, where they are known. */

@@ -2,7 +2,7 @@
 
 import type { Editor } from "../editor/editor";
 import type { Session } from "../session";
-import type { SetUp, Stated } from "../setup/stated";
+import { needless, SIDES, type SetUp, type SideName } from "../setup/stated";
 import { Signal } from "../ui/signal";
 import { say, type TextName } from "../ui/texts";
 import { EXAMPLES, type Example } from "./examples";
@@ -14,8 +14,8 @@ import { ANSWERS, type Packed } from "./zip";
 /** So long after the last change a text is saved, ms. */
 const QUIET = 600;
 
-/** The largest program that another one is taken to call, bytes. */
-const CALLED = 4 << 20;
+/** The largest program that another one is taken to call, and so many of them together, bytes. */
+const [CALLED, TOGETHER] = [4 << 20, 64 << 20];
 
 export class Desk {
   /** The programs of the folder that the binary serves. */
@@ -24,8 +24,8 @@ export class Desk {
   /** Whether what was stated of the set-up stands in the project file, in words. */
   readonly setUpTold = new Signal("");
   private timer = 0;
-  /** Parts of the set-up that are written, one after the other. */
-  private stating: Promise<void> = Promise.resolve();
+  /** What is written into the project file, one after the other: each writes over what the one before has written. */
+  private writing: Promise<unknown> = Promise.resolve();
   /** How often the user has asked for a program: what was asked for before, or by nobody, gives way. */
   private asked = 0;
   /** Tells other tabs which project was saved. */
@@ -42,7 +42,7 @@ export class Desk {
     addEventListener("visibilitychange", () => document.hidden && void this.save());
     addEventListener("pagehide", () => void this.save());
     session.beside = async (name) => (this.project?.disk ? (await this.folder?.read(name))?.[0] : this.project?.bodies?.[name]);
-    session.stated.on((stated) => stated && this.takeOver(stated));
+    session.stated.on(() => this.dropNeedless());
     addEventListener("beforeunload", (event) => {
       if (!this.store.keeps) event.preventDefault();
     });
@@ -94,15 +94,17 @@ export class Desk {
     return found && [found[0].file, bytesOf(...found), found[0].choices.from];
   }
 
-  /** Other programs with their bytes, as far as they are no large ones: of several of one name the first. */
+  /** Other programs with their bytes, as far as they are no large ones, and not too many: of several of one name the first. */
   async neighbours(): Promise<[id: string, name: string, bytes: Uint8Array][]> {
-    const large = new Set(this.list?.programs.filter((one) => one.bytes > CALLED).map((one) => one.name));
+    const bytes = new Map(this.list?.programs.map((one) => [one.name, one.bytes]));
     const found: [string, string, Uint8Array][] = [];
     const taken = new Set([this.project?.file]);
+    let left = TOGETHER;
     for (const [id, name] of await this.otherPrograms()) {
-      const file = large.has(name) ? undefined : await this.otherFile(id);
-      if (!file || taken.has(file[0]) || file[1].length > CALLED) continue;
+      const file = (bytes.get(name) ?? 0) > Math.min(CALLED, left) ? undefined : await this.otherFile(id);
+      if (!file || taken.has(file[0]) || file[1].length > Math.min(CALLED, left)) continue;
       taken.add(file[0]);
+      left -= file[1].length;
       found.push([id, file[0], file[1]]);
     }
     return found;
@@ -202,7 +204,11 @@ export class Desk {
       const now = await this.folder.write(name, bytesOf(project, text), tag).catch(() => undefined);
       // What somebody else wrote stays; here nothing is lost.
       if (now === undefined) this.saved.set("otherDisk");
-      else project.disk.tag = now;
+      else {
+        project.disk.tag = now;
+        // Choices that were changed meanwhile made another object of it.
+        if (this.project?.id === project.id && this.project.disk) this.project.disk.tag = now;
+      }
     }
     await this.store.put(project, text);
     this.others?.postMessage(project.id);
@@ -219,13 +225,12 @@ export class Desk {
     await this.store.put(project);
   }
 
-  /** Options that the program's `ncc.toml` states are choices, so that they are seen, and can be taken back. */
-  private takeOver(stated: Stated): void {
+  /** What the program's `ncc.toml` states needs no choice. */
+  private dropNeedless(): void {
     const choices = this.project?.choices;
-    const sides = [["fromOption", stated.machine], ["toOption", stated.to]] as const;
-    const misses = sides.some(([key, side]) => Object.entries(side?.options ?? {}).some(([name]) => !choices?.[key][name]));
-    if (!misses) return;
-    void this.choose(({ choices: own }) => sides.forEach(([key, side]) => (own[key] = { ...side?.options, ...own[key] })), false);
+    const drop = choices && SIDES.map((side) => [side, needless(side, choices, this.session.stated.get())] as const);
+    if (!drop?.some(([, names]) => names.length > 0)) return;
+    void this.choose(({ choices: own }) => drop.forEach(([side, names]) => names.forEach((name) => delete own[side][name])), false);
   }
 
   /** States parts of the set-up: they are choices until they stand in the program's `ncc.toml`. */
@@ -238,22 +243,24 @@ export class Desk {
         else delete choices.tools[number];
       }
     });
-    // One after the other: each writes over what the one before has written.
-    this.stating = this.stating.then(() => (id === this.project?.id ? this.keepSetUp(set, tools) : undefined));
-    await this.stating;
+    const told = await this.inTurn(id, () => this.keepSetUp(set, tools));
+    if (id === this.project?.id) this.setUpTold.set(told);
   }
 
-  private async keepSetUp(set: Partial<SetUp>, tools: Record<string, string>): Promise<void> {
+  /** Writes for a project, if it is open still when its turn comes; tells what came of it. */
+  private inTurn(id: string | undefined, write: () => Promise<string>): Promise<string> {
+    const told = this.writing.then(() => (id === this.project?.id ? write() : "")).catch(() => say("answersNotKept"));
+    this.writing = told;
+    return told;
+  }
+
+  private async keepSetUp(set: Partial<SetUp>, tools: Record<string, string>): Promise<string> {
     const project = this.project;
     const texts = Object.entries(tools).map(([number, text]) => `${number}=${text}`);
     const empty = [...Object.values(set), ...Object.values(tools)].every((own) => own.length === 0);
-    if (!project || (empty && !this.session.stated.get())) return;
-    const told = await this.keepAnswers({ ...set, ...(texts.length > 0 && { tools: texts }) });
-    if (project.id !== this.project?.id) return;
-    this.setUpTold.set(told || say("answersKept"));
-    if (told) return;
-    await this.session.readStated(this.project);
-    if (project.id !== this.project?.id) return;
+    if (!project || (empty && !this.session.stated.get())) return this.setUpTold.get();
+    const told = await this.write({ ...set, ...(texts.length > 0 && { tools: texts }) });
+    if (told || project.id !== this.project?.id) return told;
     // What the file states needs no choice any more, unless it is another one by now.
     await this.choose(({ choices }) => {
       const none = noChoices();
@@ -262,6 +269,7 @@ export class Desk {
       }
       for (const [number, text] of Object.entries(tools)) if (choices.tools[number] === text) delete choices.tools[number];
     });
+    return say("answersKept");
   }
 
   private async answersOnDisk(): Promise<string | undefined> {
@@ -269,15 +277,25 @@ export class Desk {
     return read && new TextDecoder().decode(read[0]);
   }
 
-  /** Writes what was chosen, or parts of the set-up alone, into the program's `ncc.toml`, so that the command line does the
-   * same; tells what kept it. */
-  async keepAnswers(set?: Partial<SetUp> & { tools?: string[] }): Promise<string> {
+  /** Writes what was chosen into the program's `ncc.toml`, so that the command line does the same, `without` an option that is
+   * taken back; tells what kept it. */
+  keepAnswers(without?: readonly [SideName, string]): Promise<string> {
+    return this.inTurn(this.project?.id, async () => {
+      const told = await this.write(undefined, without);
+      // What was taken back held until here.
+      if (!told) this.session.change();
+      return told;
+    });
+  }
+
+  /** Writes what was chosen, or parts of the set-up alone, and reads it again; tells what kept it. */
+  private async write(set?: Partial<SetUp> & { tools?: string[] }, without?: readonly [SideName, string]): Promise<string> {
     const { project } = this;
     if (!project) return "";
     if (project.disk && this.folder) this.list = await this.folder.list();
     const disk = this.list?.answers ? await this.folder?.read(ANSWERS) : undefined;
     const there = project.disk ? disk && new TextDecoder().decode(disk[0]) : project.answers;
-    const answer = await this.session.answers(there, set);
+    const answer = await this.session.answers(there, set, without);
     const written = answer?.bytes("output");
     if (!written) return (answer?.text("messages") ?? "").trim();
     if (project.disk && this.folder) {
@@ -285,7 +303,11 @@ export class Desk {
       const tag = await this.folder.write(ANSWERS, written, disk?.[1]).catch(() => undefined);
       if (tag === undefined) return say("answersNotKept");
     }
-    if (this.project?.id === project.id) await this.choose((own) => (own.answers = new TextDecoder().decode(written)), false);
+    if (this.project?.id !== project.id) return "";
+    await this.choose((own) => (own.answers = new TextDecoder().decode(written)), false);
+    if (this.project?.id !== project.id) return "";
+    await this.session.readStated(this.project);
+    this.dropNeedless();
     return "";
   }
 
@@ -353,8 +375,10 @@ export class Desk {
         if (answers !== undefined) own.answers = answers;
       });
     }
+    void this.session.lookBeside().catch(() => undefined);
     const read = disk && (await this.folder?.read(disk.name));
-    if (!read || !disk || read[1] === disk.tag || this.project?.disk !== disk) return;
+    const known = this.project?.disk;
+    if (!read || !disk || known?.name !== disk.name || read[1] === known.tag) return;
     if (this.saved.get() !== "saved") return this.saved.set("otherDisk");
     const line = this.editor.cursor;
     await this.openProgram(disk.name, asked);

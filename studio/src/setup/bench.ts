@@ -5,13 +5,11 @@ import type { Desk } from "../projects/desk";
 import type { Project } from "../projects/project";
 import { el } from "../ui/dom";
 import { say, type TextName } from "../ui/texts";
+import { FIELDS, readBody, rounded, writeBody } from "./body";
 import type { SetUp } from "./stated";
 
 const CELLS = [0, 256, 512, 1024, 2048, 4096];
-/** Letters of a block's ranges, and the numbers of a fixture in the order of its fields. */
-const RANGES = ["X", "Y", "Z"] as const;
-const FIELDS = ["X−", "X+", "Y−", "Y+", "Z−", "Z+"];
-const ROUND = ["D", "X", "Y", "Z−", "Z+"];
+const AXES = ["X", "Y", "Z"] as const;
 
 export class Bench {
   constructor(
@@ -32,9 +30,9 @@ export class Bench {
     const { low, high } = cut?.raw ?? { low: [0, 0, -20], high: [50, 50, 0] };
     const [x, y0, y1, z0, z1] = [high[0], low[1], high[1], low[2], high[2]] as [number, number, number, number, number];
     // A jaw along the part, as high as its middle.
-    const jaw = block([x, x + 20, y0, y1, z0, (z0 + z1) / 2]);
+    const jaw = writeBody("block", rounded([x, x + 20, y0, y1, z0, (z0 + z1) / 2]));
     const middle = (y0 + y1) / 2;
-    const clamp = round([20, x + 15, middle, z0, z1 + 10]);
+    const clamp = writeBody("cylinder", rounded([20, x + 15, middle, z0, z1 + 10]));
     const file = el("input", { type: "file", accept: ".stl", "aria-label": say("fixtureFile"), class: "unseen", tabindex: -1 });
     file.addEventListener("change", () => void this.take(file.files?.[0]));
     const buttons = el("div", { class: "held" }, add("addBlock", () => this.put([...all, jaw])), add("addCylinder", () => this.put([...all, clamp])), add("addStl", () => file.click()), file);
@@ -47,7 +45,7 @@ export class Bench {
   /** Where the zero of the part lies on the machine: with it the travel is shown and checked. */
   zero(): HTMLElement {
     const chosen = this.project?.choices.zero ?? [];
-    const inputs = RANGES.map((axis, at) => el("input", { type: "number", step: "any", value: chosen[at] ?? "", "aria-label": `${say("zeroOnMachine")} ${axis}`, placeholder: "–" }));
+    const inputs = AXES.map((axis, at) => el("input", { type: "number", step: "any", value: chosen[at] ?? "", "aria-label": `${say("zeroOnMachine")} ${axis}`, placeholder: "–" }));
     const state = () => {
       const zero = inputs.map((input) => input.value);
       // One that is not whole says nothing yet.
@@ -55,7 +53,7 @@ export class Bench {
       if (all === 3 || all === 0) void this.desk.choose(({ choices }) => (choices.zero = all === 3 ? zero : []));
     };
     for (const input of inputs) input.addEventListener("change", state);
-    const fields = inputs.map((input, at) => el("label", {}, RANGES[at] ?? "", input));
+    const fields = inputs.map((input, at) => el("label", {}, AXES[at] ?? "", input));
     return el("section", { id: "zero" }, el("h2", {}, say("zeroOnMachine")), el("div", { class: "held" }, ...fields, "mm"), el("p", { class: "dim" }, say("zeroMeans")));
   }
 
@@ -69,23 +67,20 @@ export class Bench {
   }
 
   private fixture(text: string, at: number): HTMLElement {
-    const isFile = /\.stl$/i.test(text);
-    const isRound = /\bD/.test(text);
-    const names = isFile ? [] : isRound ? ROUND : FIELDS;
-    const numbers = [...text.matchAll(/-?[\d.]+/g)].map(([number]) => Number(number));
+    const [form, numbers] = readBody(text) ?? [undefined, []];
+    const names = form ? FIELDS[form] : [];
     const label = say("fixtureNumber", { number: at + 1 });
     const inputs = names.map((name, own) => {
       const input = el("input", { type: "number", step: "any", value: numbers[own] ?? 0, "aria-label": `${label} ${name}` });
       input.addEventListener("change", () => {
-        const values = inputs.map((one) => one.valueAsNumber || 0);
-        this.replace(at, isRound ? round(values) : block(values));
+        if (form) this.replace(at, writeBody(form, inputs.map((one) => one.valueAsNumber || 0)));
       });
       return input;
     });
     const fields = inputs.map((input, own) => el("label", {}, names[own] ?? "", input));
     const remove = el("button", { class: "chip", "aria-label": `${say("remove")}: ${label}` }, say("remove"));
     remove.addEventListener("click", () => this.replace(at));
-    return el("div", { class: "held" }, el("b", {}, isFile ? text : label), ...fields, remove);
+    return el("div", { class: "held" }, el("b", {}, form ? label : text), ...fields, remove);
   }
 
   private replace(at: number, ...by: string[]): void {
@@ -108,19 +103,14 @@ export class Bench {
   }
 }
 
-function block(numbers: number[]): string {
-  return RANGES.map((letter, axis) => `${letter}${short(numbers[axis * 2])}:${short(numbers[axis * 2 + 1])}`).join(" ");
+/** A length or an angle of a tool: as it was chosen, and else as it is known. */
+export function lengthOf(stated: string, key: string, known: number | undefined): string {
+  return new RegExp(`\\b${key}=([\\d.]+)`).exec(stated)?.[1] ?? (known === undefined ? "" : String(known));
 }
-
-function round([diameter, x, y, low, high]: number[]): string {
-  return `D${short(diameter)} X${short(x)} Y${short(y)} Z${short(low)}:${short(high)}`;
-}
-
-const short = (value: number | undefined) => Number((value ?? 0).toFixed(3));
 
 /** Lengths of a tool's body: their names on the command line, in words, and their values. */
 export function bodyOf(stated: string, tool: Tool): Record<string, [TextName, string]> {
-  const value = (key: string, known: number | undefined) => new RegExp(`\\b${key}=([\\d.]+)`).exec(stated)?.[1] ?? (known === undefined ? "" : String(known));
+  const value = (key: string, known: number | undefined) => lengthOf(stated, key, known);
   return {
     flute: ["flute", value("flute", tool.flute)],
     shank: ["shank", value("shank", tool.shank)],

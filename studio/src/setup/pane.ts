@@ -5,11 +5,12 @@ import type { Cut, Tool } from "../engine/part";
 import type { Desk } from "../projects/desk";
 import type { Session } from "../session";
 import { byId, el } from "../ui/dom";
-import { Bench, bodyOf, bodyText } from "./bench";
+import { Bench, bodyOf, bodyText, lengthOf } from "./bench";
+import { FIELDS, readBody, rounded, writeBody, type Form } from "./body";
 import { clock, figure, say, type TextName } from "../ui/texts";
 
 /** Shapes that can be stated, and what more can be: its name on the command line and its unit. */
-const SHAPES: [string, TextName, string, string][] = [
+const SHAPES: [string, TextName, "corner" | "angle" | "", string][] = [
   ["flat", "flat", "", ""],
   ["ball", "ball", "", ""],
   ["bull-nose", "bullNose", "corner", "mm"],
@@ -29,14 +30,6 @@ const KNOWN: Record<string, TextName> = {
 };
 
 const FORMS = ["guess", "block", "cylinder"] as const;
-type Form = (typeof FORMS)[number];
-
-/** Fields of a form of raw part: their names, in the order of the command line. */
-const FIELDS: Record<Form, string[]> = {
-  guess: [],
-  block: ["X−", "X+", "Y−", "Y+", "Z−", "Z+"],
-  cylinder: ["D", "X", "Y", "Z−", "Z+"],
-};
 
 /** A shape in words; the compiler's name where it cannot be stated here. */
 export function shapeName(shape: string): string {
@@ -83,17 +76,19 @@ export class SetupPane {
 
   private raw(cut: Cut | undefined): HTMLElement {
     const stated = this.session.setUp?.stock ?? "";
-    const form = !stated ? "guess" : /\bD/.test(stated) ? "cylinder" : "block";
-    const numbers = stated ? numbersOf(stated, form) : [];
+    const [form, numbers] = readBody(stated) ?? [undefined, []];
+    const names = form ? FIELDS[form] : [];
     const list = el("select", { "aria-label": say("rawPart") });
-    list.append(...FORMS.map((one) => el("option", { value: one, selected: one === form }, say(one))));
-    list.addEventListener("change", () => this.stateRaw(beginning(list.value as Form, cut)));
-    const inputs = FIELDS[form].map((name, at) => {
+    list.append(...FORMS.map((one) => el("option", { value: one, selected: one === (form ?? "guess") }, say(one))));
+    // What has no fields, a file of triangles, stands as it is.
+    if (stated && !form) list.append(el("option", { value: stated, selected: true }, stated));
+    list.addEventListener("change", () => this.stateRaw(beginning(list.value, cut)));
+    const inputs = names.map((name, at) => {
       const input = el("input", { type: "number", step: "any", value: numbers[at] ?? 0, "aria-label": `${say("rawPart")} ${name}` });
-      input.addEventListener("change", () => this.stateRaw(statedRaw(form, inputs.map((one) => one.valueAsNumber || 0))));
+      input.addEventListener("change", () => form && this.stateRaw(writeBody(form, inputs.map((one) => one.valueAsNumber || 0))));
       return input;
     });
-    const fields = inputs.map((input, at) => el("label", {}, FIELDS[form][at] ?? "", input));
+    const fields = inputs.map((input, at) => el("label", {}, names[at] ?? "", input));
     const { raw } = cut ?? {};
     const size = raw ? raw.high.map((high, axis) => figure(high - (raw.low[axis] ?? 0), 1)).join(" × ") : "–";
     const row = el("div", { class: "fields" }, list, ...fields, el("span", { class: "dim" }, `${size} mm`));
@@ -117,7 +112,8 @@ export class SetupPane {
     const { number } = tool;
     const name = number === null ? "–" : `T${number}`;
     const stated = this.session.project.get()?.choices.tools[String(number)] ?? "";
-    const detail = /(?:corner|angle)=([\d.]+)/.exec(stated)?.[1] ?? "";
+    const [, , option, unit] = SHAPES.find(([own]) => own === tool.shape) ?? ["", "", "", ""];
+    const detail = option ? lengthOf(stated, option, tool[option]) : "";
     const body = bodyOf(stated, tool);
     const disabled = number === null;
     const shape = el("select", { "aria-label": `${say("shape")} ${name}`, disabled });
@@ -127,7 +123,6 @@ export class SetupPane {
       el("input", { type: "number", min: 0, step: "any", value, "aria-label": `${say(label)} ${name}`, disabled });
     const diameter = field("diameter", String(Number(tool.diameter.toFixed(3))));
     const more = field("detail", detail);
-    const [, , option, unit] = SHAPES.find(([own]) => own === tool.shape) ?? ["", "", "", ""];
     more.hidden = !option;
     const state = () => {
       const key = SHAPES.find(([own]) => own === shape.value)?.[2];
@@ -159,23 +154,11 @@ export class SetupPane {
 }
 
 /** A stated raw part that begins as the guessed one. */
-function beginning(form: Form, cut: Cut | undefined): string {
+function beginning(form: string, cut: Cut | undefined): string {
   const { low, high } = cut?.raw ?? { low: [0, 0, -20], high: [100, 100, 0] };
   const [x0, y0, z0] = low as [number, number, number];
   const [x1, y1, z1] = high as [number, number, number];
-  if (form === "block") return statedRaw(form, [x0, x1, y0, y1, z0, z1]);
   const across = Math.hypot(x1 - x0, y1 - y0);
-  return form === "cylinder" ? statedRaw(form, [across, (x0 + x1) / 2, (y0 + y1) / 2, z0, z1]) : "";
-}
-
-/** As `--stock` has it. */
-function statedRaw(form: Form, numbers: number[]): string {
-  const [a, b, c, d, e, f] = numbers.map((value) => Number(value.toFixed(3)));
-  if (form === "block") return `X${a}:${b} Y${c}:${d} Z${e}:${f}`;
-  return form === "cylinder" ? `D${a} X${b} Y${c} Z${d}:${e}` : "";
-}
-
-function numbersOf(stated: string, form: Form): number[] {
-  const found = [...stated.matchAll(/-?[\d.]+/g)].map(([text]) => Number(text));
-  return found.slice(0, FIELDS[form].length);
+  const begin: Record<Form, number[]> = { block: [x0, x1, y0, y1, z0, z1], cylinder: [across, (x0 + x1) / 2, (y0 + y1) / 2, z0, z1] };
+  return form === "block" || form === "cylinder" ? writeBody(form, rounded(begin[form])) : "";
 }

@@ -39,8 +39,37 @@ export function setUpOf(choices: Choices, stated: Stated | undefined): SetUp {
   };
 }
 
-/** Dialect and machine of a side as the compiler is asked for them to be written. */
-export function sideOf(dialect: string, machine: string, stated: StatedSide | null | undefined): { dialect: string; machine: string } {
-  const own = stated && !machine && (!dialect || dialect === "auto" || dialect === stated.dialect) ? stated : undefined;
-  return { dialect: own?.dialect ?? dialect, machine: machine || (own?.name ?? "") };
+/** A side as it holds, and as it is written: what was chosen, and else what the file states. */
+export interface Side {
+  dialect: string;
+  machine: string;
+  options: Record<string, string>;
+}
+
+export const SIDES = ["fromOption", "toOption"] as const;
+/** Which side: its options among the choices. */
+export type SideName = (typeof SIDES)[number];
+
+export function sideOf(side: SideName, choices: Choices, stated: Stated | undefined): Side {
+  const own = statedOf(side, choices, stated);
+  const [dialect, machine] = chosenOf(side, choices);
+  return { dialect: own?.dialect ?? dialect, machine: machine || (own?.name ?? ""), options: { ...own?.options, ...choices[side] } };
+}
+
+/** Options that were chosen and that the file states alike: they need no choice, and one that stays would hide what the file
+ * states later. */
+export function needless(side: SideName, choices: Choices, stated: Stated | undefined): string[] {
+  const options = statedOf(side, choices, stated)?.options ?? {};
+  return Object.keys(options).filter((name) => choices[side][name] === options[name]);
+}
+
+/** What the file states of a side, unless another dialect or a machine is chosen. */
+function statedOf(side: SideName, choices: Choices, stated: Stated | undefined): StatedSide | undefined {
+  const own = side === "fromOption" ? stated?.machine : stated?.to;
+  const [dialect, machine] = chosenOf(side, choices);
+  return own && !machine && (!dialect || dialect === "auto" || dialect === own.dialect) ? own : undefined;
+}
+
+function chosenOf(side: SideName, { from, machine, to, machineTo }: Choices): [dialect: string, machine: string] {
+  return side === "fromOption" ? [from, machine] : [to, machineTo];
 }

@@ -6,7 +6,7 @@ import type { Between } from "../engine/part";
 import { download, type Desk } from "../projects/desk";
 import { choose, type Choices } from "../projects/project";
 import type { Other, Session, Translation } from "../session";
-import { sideOf } from "../setup/stated";
+import { SIDES, sideOf, type SideName } from "../setup/stated";
 import { byId, el, icon } from "../ui/dom";
 import { wireToggle } from "../ui/layout";
 import { figure, say, type TextName } from "../ui/texts";
@@ -49,6 +49,7 @@ export class TranslatePane {
     wireToggle("together", (on) => this.aligned.setTogether(on));
     session.translation.on((translation) => this.show(translation));
     for (const signal of [session.project, session.stated]) signal.on(() => this.verdict(session.translation.get()));
+    session.stated.on(() => this.choices());
     let open: string | undefined;
     session.project.on((project) => {
       this.choices();
@@ -73,8 +74,7 @@ export class TranslatePane {
   private other(): Other | undefined {
     const [output, project] = [this.session.translation.get()?.output, this.session.project.get()];
     if (output === undefined || !project) return undefined;
-    const { toOption: options, to, machineTo } = project.choices;
-    const { machine } = sideOf(to, machineTo, this.session.stated.get()?.to);
+    const { machine, options } = sideOf("toOption", project.choices, this.session.stated.get());
     const bytes = new TextEncoder().encode(output);
     return { name: `translated-${project.file}`, bytes, from: this.target(), machine, options };
   }
@@ -137,14 +137,14 @@ export class TranslatePane {
   }
 
   /** Writes the answers where the command line finds them. */
-  private async keep(): Promise<void> {
+  private async keep(without?: readonly [SideName, string]): Promise<void> {
     const place = byId("answers-told");
-    const told = await this.desk.keepAnswers();
+    const told = await this.desk.keepAnswers(without);
     place.textContent = told || say("answersKept");
     place.classList.toggle("bad", told !== "");
   }
 
-  /** What was chosen, each to be taken back by a click. */
+  /** What was chosen, or stands in `ncc.toml`, each to be taken back by a click. */
   private choices(): void {
     const choices = this.session.project.get()?.choices;
     const chips = choices ? [...this.chips(choices)] : [];
@@ -154,9 +154,9 @@ export class TranslatePane {
   }
 
   private *chips(choices: Choices): Iterable<HTMLElement> {
-    for (const side of ["fromOption", "toOption"] as const) {
-      for (const [name, value] of Object.entries(choices[side])) {
-        yield this.chip(`${name} = ${value}`, (own) => delete own[side][name]);
+    for (const side of SIDES) {
+      for (const [name, value] of Object.entries(sideOf(side, choices, this.session.stated.get()).options)) {
+        yield this.chip(`${name} = ${value}`, (own) => delete own[side][name], [side, name]);
       }
     }
     for (const pass of choices.pass) {
@@ -164,8 +164,8 @@ export class TranslatePane {
     }
   }
 
-  private chip(text: string, back: (choices: Choices) => unknown): HTMLElement {
-    const does = () => void this.desk.choose((project) => back(project.choices)).then(() => this.keep());
+  private chip(text: string, back: (choices: Choices) => unknown, option?: readonly [SideName, string]): HTMLElement {
+    const does = () => void this.desk.choose((project) => back(project.choices)).then(() => this.keep(option));
     return el("button", { class: "chip", title: say("undoChoice", { name: text }), onclick: does }, text, icon("close"));
   }
 
