@@ -310,6 +310,8 @@ export class Session {
       const now = await this.beside(name);
       if (reading !== this.reading) return;
       if (isSame(bytes, now)) continue;
+      // One that is gone does not stay in the engines.
+      if (!now) [this.engines?.quick, this.engines?.heavy].forEach((one) => one?.put(name, new Uint8Array()));
       this.reading = undefined;
       return this.change();
     }

@@ -297,7 +297,7 @@ export class Desk {
     const there = project.disk ? disk && new TextDecoder().decode(disk[0]) : project.answers;
     const answer = await this.session.answers(there, set, without);
     const written = answer?.bytes("output");
-    if (!written) return (answer?.text("messages") ?? "").trim();
+    if (!written) return answer?.text("messages").trim() || say("answersNotKept");
     if (project.disk && this.folder) {
       // What somebody else wrote meanwhile stays.
       const tag = await this.folder.write(ANSWERS, written, disk?.[1]).catch(() => undefined);
