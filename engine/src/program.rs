@@ -141,15 +141,19 @@ pub(crate) fn machine_of(one: &One, files: &Files) -> Result<Option<Arc<Profile>
     Ok(machine)
 }
 
-/// Puts the zero of a work offset into a profile.
+/// Puts the zero of a work offset into a profile; the name and the rotary axes of its row stay.
 fn put_zero(schema: &mut Schema, number: u32, zero: [f64; 3]) {
     fn fact<T>(value: T) -> Fact<T> {
         Fact { value: Some(value), source: String::new(), assumed: false, span: 0..0 }
     }
-    let [x, y, z] = zero.map(fact);
-    schema.work_offset.retain(|row| row.get_ref().number.get() != Some(number));
-    let row = WorkOffsetRow { number: fact(number), x, y, z, ..WorkOffsetRow::default() };
-    schema.work_offset.push(Spanned::new(0..0, row));
+    let all = &mut schema.work_offset;
+    let at = all.iter().position(|row| row.get_ref().number.get() == Some(number)).unwrap_or_else(|| {
+        let row = WorkOffsetRow { number: fact(number), ..WorkOffsetRow::default() };
+        all.push(Spanned::new(0..0, row));
+        all.len() - 1
+    });
+    let row = all[at].get_mut();
+    [row.x, row.y, row.z] = zero.map(fact);
 }
 
 /// A dialect by its name; of no name and of `auto`, none.
@@ -236,4 +240,25 @@ pub(crate) fn plan<'p>(job: &'p Job, profile: Option<&Profile>) -> (Plan<'p>, Ve
         centre: true,
     };
     (plan, assumed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stated_zero_keeps_the_rest_of_the_row() {
+        let mut schema = ncc_machines::find("fanuc-vmc").expect("a profile").schema.clone();
+        schema.work_offset.clear();
+        put_zero(&mut schema, 1, [0.0; 3]);
+        let row = schema.work_offset[0].get_mut();
+        (row.name.value, row.a.value) = (Some("vice".to_owned()), Some(30.0));
+        put_zero(&mut schema, 1, [-5.0, -6.0, -7.0]);
+        put_zero(&mut schema, 2, [0.0; 3]);
+        let [row, other] = &schema.work_offset[..] else { panic!("{:?}", schema.work_offset) };
+        let row = row.get_ref();
+        assert_eq!([&row.x, &row.y, &row.z, &row.a].map(Fact::get), [-5.0, -6.0, -7.0, 30.0].map(Some));
+        assert_eq!(row.name.value.as_deref(), Some("vice"));
+        assert_eq!(other.get_ref().number.get(), Some(2));
+    }
 }

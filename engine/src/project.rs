@@ -23,7 +23,7 @@ pub(crate) fn project(
 ) -> Result<(Exit, Outputs), Problem> {
     let (from, to) = ([&asked.from, &asked.machine_from], [&asked.to, &asked.machine_to]);
     let mut id = None;
-    // A tool stands with a machine, which has a dialect.
+    // A tool belongs to a machine, which has a dialect.
     if from.iter().any(|own| own.is_some()) || !asked.from_option.is_empty() || !asked.tools.is_empty() {
         let mut source = open(&asked.file, false, files, messages)?;
         let machines = Machines { from: profile(asked.machine_from.as_deref(), files)?, to: None };
