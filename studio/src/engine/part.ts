@@ -17,6 +17,8 @@ export interface Tool {
   /** mm, of a bull-nose; degrees, of a drill, a chamfer or a taper. */
   corner?: number;
   angle?: number;
+  /** Diameter of the flat end of a chamfer mill, mm. */
+  end_diameter?: number;
   /** Radius and height above the tip of what cuts, mm, from the axis outwards. */
   outline: [number, number][];
   /** Length of what cuts, and diameter above that, mm, where they are known. */

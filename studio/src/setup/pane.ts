@@ -127,7 +127,10 @@ export class SetupPane {
     const state = () => {
       const key = SHAPES.find(([own]) => own === shape.value)?.[2];
       const extra = key && more.value && shape.value === tool.shape ? `,${key}=${more.value}` : "";
-      const text = diameter.value ? `${shape.value},${diameter.value}${extra}${bodyText(lengths, diameter.valueAsNumber)}` : "";
+      // What has no field here stays as it is known.
+      const others = (["corner", "angle", "end_diameter"] as const).filter((own) => own !== key && tool[own] !== undefined);
+      const kept = shape.value === tool.shape ? others.map((own) => `,${own}=${tool[own]}`).join("") : "";
+      const text = diameter.value ? `${shape.value},${diameter.value}${extra}${kept}${bodyText(lengths, diameter.valueAsNumber)}` : "";
       void this.desk.state({}, { [String(number)]: text });
     };
     // Where a holder begins means nothing without one.
