@@ -281,10 +281,7 @@ pub struct Layout {
 impl Layout {
     /// The program alone.
     pub(crate) fn one(&self) -> One {
-        One {
-            project: self.project.clone(),
-            ..one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
-        }
+        one(&self.file, [&self.from, &self.machine, &self.project], &self.from_option)
     }
 }
 
@@ -315,8 +312,7 @@ pub struct Called {
 impl Called {
     /// The program that calls it.
     pub(crate) fn one(&self) -> One {
-        let one = one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option);
-        One { project: self.project.clone(), ..one }
+        one(&self.file, [&self.from, &self.machine, &self.project], &self.from_option)
     }
 }
 
@@ -349,24 +345,20 @@ pub struct Rename {
 impl Rename {
     /// The program alone.
     pub(crate) fn one(&self) -> One {
-        One {
-            project: self.project.clone(),
-            ..one(&self.file, self.from.as_ref(), self.machine.as_ref(), &self.from_option)
-        }
+        one(&self.file, [&self.from, &self.machine, &self.project], &self.from_option)
     }
 }
 
 fn one(
     file: &str,
-    from: Option<&String>,
-    machine: Option<&String>,
+    [from, machine, project]: [&Option<String>; 3],
     options: &BTreeMap<String, String>,
 ) -> One {
     One {
         file: file.to_owned(),
-        from: from.cloned(),
-        machine: machine.cloned(),
-        project: None,
+        from: from.clone(),
+        machine: machine.clone(),
+        project: project.clone(),
         from_option: options.clone(),
         units: None,
         assume_milling: false,

@@ -1,4 +1,4 @@
-//! What moves do to a map: cells that are cut between two heights, and material that is in the way.
+//! Cuts cells of a map between two heights, and finds material in the way of a move.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use crate::map::{Grid, HeightMap};
 /// Depths up to this are no collision, mm: what single precision makes of two surfaces at one place.
 pub(crate) const TOUCH: f32 = 0.001;
 
-/// What a move has removed.
+/// The material that a move has removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Removed {
     /// Volume, mm³.
@@ -16,7 +16,7 @@ pub struct Removed {
     pub depth: f32,
 }
 
-/// What a move did to a map, and in which cells.
+/// The change of a map by a move: the material removed, and the box of the cells changed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cut {
     pub(crate) removed: Removed,
@@ -35,7 +35,7 @@ impl Cut {
     }
 }
 
-/// Where something is in the way.
+/// A collision: its place, and how deep the tool is in material there, mm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hit {
     pub(crate) place: [f64; 3],

@@ -1,6 +1,6 @@
-//! The faces of a part around its hollows, for pictures: the upper surface alone does not show what lies under it.
+//! The faces of a part around its hollows, for pictures: the upper surface alone hides them.
 //!
-//! The part is made of upright blocks there, one a cell. Faces of neighbours that lie in one plane are one long face.
+//! The part is made of upright blocks there, one a cell. Faces of neighbours in one plane are joined.
 
 use crate::hollows::without;
 use crate::map::HeightMap;
@@ -9,7 +9,7 @@ use crate::map::HeightMap;
 /// four cells apart; a wall between two such points must not close a hollow.
 const REACH: usize = 4;
 
-/// Which way a face looks.
+/// The direction of a face, from the material outwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Side {
@@ -33,7 +33,7 @@ pub enum Side {
 pub struct Face {
     /// The first cell of the row.
     pub cell: u32,
-    /// Which way it looks.
+    /// Its direction.
     pub side: Side,
     /// How many cells.
     pub length: u16,

@@ -16,11 +16,11 @@ const AROUND: usize = 16;
 /// The parts of a tool, for when it leans.
 #[derive(Clone, Debug)]
 pub(crate) struct Leaning {
-    /// What cuts.
+    /// The cutting part.
     pub(crate) cutter: Vec<Convex>,
     /// The same, a little smaller on all sides.
     pub(crate) inside: Vec<Convex>,
-    /// What goes on above the flutes as wide as they are.
+    /// The part above the flutes, as wide as they are.
     pub(crate) above: Vec<Convex>,
     /// Above the flutes.
     pub(crate) shank: Vec<Convex>,
@@ -29,7 +29,7 @@ pub(crate) struct Leaning {
 }
 
 impl Leaning {
-    /// Of a tool; `beside` is how much smaller is what must not touch anything, mm.
+    /// Of a tool; `beside` is the clearance of the parts that are checked for collisions, mm.
     pub(crate) fn of(tool: &Tool, beside: f64) -> Leaning {
         let is_on_neck = tool.cutter.upper().is_some();
         let flute = tool.flute.filter(|_| !is_on_neck);
@@ -104,7 +104,7 @@ impl Path<'_> {
 }
 
 fn one(grid: Grid, leg: &Leg, part: &Convex, [floor, top]: [f64; 2], shown: &mut dyn FnMut(usize, [f32; 2])) {
-    // What is beyond both heights for good need not be looked at.
+    // The part of the tool that stays beyond both heights of the map cannot cut.
     let part = &part.up_to(leg.leaves(part, [floor, top]));
     if part.is_empty()
         || -leg.reach(part, [0.0, 0.0, -1.0]) >= top

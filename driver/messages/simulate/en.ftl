@@ -34,6 +34,7 @@ simulate-grid = { $columns } × { $rows }, { $cell } mm each
 simulate-rests-tool = this rests on a guessed tool: `--tool` or the profile states it
 simulate-rests-raw = this rests on a guessed raw part: `--stock` states it
 simulate-heights = the tool cuts nothing at the start and at places of the machine, until it moves along Z: its height is not known there
+simulate-straightened = a tilted plane without angles turns all rotary axes back to zero
 simulate-after-planes = after a tilted plane comes or goes, the tool cuts nothing until X, Y and Z are stated: its position is not known there
 simulate-contours = compensated contours are cut as programmed, without the radius: the profile states it
 simulate-offsets = work offsets { $offsets } lie in one place here: a profile with `[[work_offset]]` says where they are

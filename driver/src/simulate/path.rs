@@ -55,6 +55,8 @@ pub struct Path {
     pub start: [f64; 3],
     /// Axes of the tilted planes on which an upright tool moves.
     pub tilts: Vec<Axes>,
+    /// Whether a plane without angles is assumed to have turned all rotary axes back to zero.
+    pub straightened: bool,
     /// The moves; their tools are places in [`Path::tools`].
     pub moves: Vec<Move>,
     /// When each begins, seconds.
@@ -145,6 +147,7 @@ impl<'t> Recorder<'t> {
     pub fn finish(self) -> Path {
         let Recorder { mut path, tables, highs, top, offset, inch, said, mut planes, .. } = self;
         planes.clear(&mut path.moves);
+        path.straightened = planes.straightened;
         path.tilts = planes.tilts;
         let top = if top.is_finite() { top } else { 0.0 };
         path.has_unknown_heights |= !highs.is_empty();

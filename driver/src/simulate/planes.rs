@@ -70,6 +70,9 @@ pub(super) struct Planes {
     pub(super) lost: [bool; 3],
     /// Whether a plane has turned the tool, or the part, and nothing has turned it back.
     turned: bool,
+    /// Whether a plane without angles has turned it back: that all rotary axes are at zero then is an assumption. A rotary table
+    /// may keep its angle where the tool is parallel to its axis.
+    pub(super) straightened: bool,
     /// Rotary axes that the program has stated so far, and those stated since it was turned.
     stated: [[bool; 3]; 2],
 }
@@ -112,7 +115,7 @@ impl Planes {
         plane.upright = Some(rotary(&event.end));
         plane.is_upright = true;
         plane.known = [false; 3];
-        // On a plane that is turned by nothing all rotary axes stand at their zeros.
+        self.straightened |= self.turned && plane.is_straight();
         self.turned = !plane.is_straight();
         self.stated[1] = [false; 3];
     }

@@ -295,6 +295,9 @@ pub fn assumptions(path: &Path, tables: &Tables, course: &Course) -> Vec<String>
     if !path.tilts.is_empty() {
         lines.push(words("after-planes").headline());
     }
+    if path.straightened {
+        lines.push(words("straightened").headline());
+    }
     let unstated = path.offsets.iter().filter(|offset| !tables.work_offsets.contains_key(offset));
     let names: Vec<_> = unstated.map(ToString::to_string).collect();
     if names.len() > 1 {
