@@ -169,20 +169,24 @@ fn a_cut_from_a_place_that_nobody_knows_is_refused() {
 fn a_plane_must_be_turned_back() {
     let after = |start: &str, blocks: &str| {
         let blocks = format!("G53.1\n{HOLE}G69\n{blocks}G1 Z-1. F100.\n");
-        why(&path(Tables::default(), &format!("{start}{HEAD}G68.2 X20. Y0 Z-5. I0 J30. K0\n{blocks}")))
+        path(Tables::default(), &format!("{start}{HEAD}G68.2 X20. Y0 Z-5. I0 J30. K0\n{blocks}"))
     };
+    let refused = |start: &str, blocks: &str| why(&after(start, blocks));
     let start = "G0 B0 C0\n";
-    assert_eq!(after(start, "G0 X1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
-    assert_eq!(after(start, "G0 B0\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
-    assert_eq!(after(start, "G0 B0 C5.\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
-    assert_eq!(after(start, "G0 B0 C0\nX1. Y1.\nG43 H1 Z5.\n"), None);
-    assert_eq!(after("", "G53 Z0\nG0 B0\nX1. Y1.\nG43 H1 Z5.\n"), None);
-    assert_eq!(after(start, "G0 B0 C0\nX1.\nG43 H1 Z5.\n"), Some(Unsimulated::Unplaced));
-    assert_eq!(after(start, "G0 B0 C0\nX1. Y1.\n"), Some(Unsimulated::Unplaced));
+    assert_eq!(refused(start, "G0 X1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+    assert_eq!(refused(start, "G0 B0\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+    assert_eq!(refused(start, "G0 B0 C5.\nX1. Y1.\nG43 H1 Z5.\n"), Some(Unsimulated::Leaning));
+    assert_eq!(refused(start, "G0 B0 C0\nX1. Y1.\nG43 H1 Z5.\n"), None);
+    assert_eq!(refused("", "G53 Z0\nG0 B0\nX1. Y1.\nG43 H1 Z5.\n"), None);
+    assert_eq!(refused(start, "G0 B0 C0\nX1.\nG43 H1 Z5.\n"), Some(Unsimulated::Unplaced));
+    assert_eq!(refused(start, "G0 B0 C0\nX1. Y1.\n"), Some(Unsimulated::Unplaced));
     // A plane that is turned by nothing turns it back, too.
     let level = "G68.2 X0 Y0 Z0 I0 J0 K0\nG53.1\nG0 X1. Y1.\nG43 H1 Z5.\n";
-    assert_eq!(after(start, level), None);
-    assert_eq!(after(start, &format!("{level}G69\nG0 X2. Y2. Z5.\n")), None);
+    assert_eq!(refused(start, level), None);
+    assert_eq!(refused(start, &format!("{level}G69\nG0 X2. Y2. Z5.\n")), None);
+    // That is an assumption, which is told.
+    assert!(after(start, level).straightened);
+    assert!(!after(start, "G0 B0 C0\nX1. Y1.\nG43 H1 Z5.\n").straightened);
 }
 
 /// Upright planes are cut as upright tools cut: moved, and turned about Z.
