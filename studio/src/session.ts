@@ -210,7 +210,7 @@ export class Session {
     return quick.run({ verb: "project", file, ...known, ...side, ...to });
   }
 
-  /** Cuts the program and its translation from one raw part; what lies between them, or why nobody knows. */
+  /** Cuts the program and its translation from one raw part; their difference, or why it is unknown. */
   async compare(to: string): Promise<Between | string | undefined> {
     const [project, heavy] = [this.project.get(), this.engines?.heavy];
     const output = this.translation.get()?.output;

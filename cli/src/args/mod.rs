@@ -149,7 +149,7 @@ pub enum Verb {
     GitDiff(crate::review::diff::args::GitDiff),
     /// Print what a program does, one line an event, for git's own diff
     GitTextconv(crate::review::args::Textconv),
-    /// Where a line of a translated program comes from, by which words, and what is in force there
+    /// Where a line of a translated program comes from, by which words, and what is active there
     Why(crate::provenance::args::Why),
     /// List the machines, show a profile, or test one
     Machines(crate::machines::args::Machines),
@@ -222,7 +222,7 @@ pub struct Translate {
     #[arg(long, value_name = "FILE", help_heading = "What to translate")]
     pub args: Option<PathBuf>,
     /// State what a variable holds at the start that the program reads and never sets: `_td=0.25`, `500=12`; the
-    /// output sets it. `#4120=2` and `#4111=2` are the T and H code in force on a Fanuc. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
+    /// output sets it. `#4120=2` and `#4111=2` are the T and H code active on a Fanuc. On a Sinumerik it may be one that no program defines (GUD); `NAME=drop` leaves the assignments of
     /// such a one out [may be repeated]
     #[arg(long, value_name = "NAME=NUMBER", value_parser = ncc_driver::job::initial_variables::value, help_heading = "What to translate")]
     pub value: Vec<(String, Option<Num>)>,

@@ -19,7 +19,7 @@ pub(super) fn text(args: &Init, known: &DialectRegistry, about: &About, asked: &
     let mut text = String::new();
     comment(
         &mut text,
-        "Which machines the programs of this folder are for. `ncc config` shows what is in force; a machine has the keys \
+        "Which machines the programs of this folder are for. `ncc config` shows what is active; a machine has the keys \
          of a profile (`ncc machines schema`), or is named: the file of a profile, or a machine of `ncc machines`.",
     );
     // Writing into a text cannot fail.

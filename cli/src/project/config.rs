@@ -71,7 +71,7 @@ fn of_program(
     match known.project(Look::File(program), err)? {
         Some(row) => text += &table(&lines(&row)),
         // Writing into a text cannot fail.
-        None => drop(writeln!(text, "no pattern matches {}; nothing of it is in force", program.display())),
+        None => drop(writeln!(text, "no pattern matches {}; nothing of it is active", program.display())),
     }
     Ok(text)
 }

@@ -40,8 +40,7 @@ pub fn run(args: &Init, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
     })?;
     file.write_all(text.as_bytes()).map_err(|error| Problem::file("write", &shown, &error))?;
     // If nobody can read it, the file is there all the same.
-    let _ =
-        writeln!(err, "{shown} is written; `ncc config {}` shows what is in force", args.program.display());
+    let _ = writeln!(err, "{shown} is written; `ncc config {}` shows what is active", args.program.display());
     if let Ok(Some(Some((other, _)))) = hidden {
         let _ = writeln!(err, "for the programs of this folder it goes before {}", other.shown);
     }

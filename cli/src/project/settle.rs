@@ -49,7 +49,7 @@ pub(crate) enum Sides {
     Written,
 }
 
-/// What is in force for a program.
+/// What is active for a program.
 #[derive(Clone, Debug)]
 pub(crate) struct Settled {
     /// The machine of the program.

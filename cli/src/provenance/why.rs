@@ -1,5 +1,5 @@
 //! `ncc why OUT:LINE`: where a line of an emitted program comes from, by which rows of the dictionaries, and
-//! what is in force before and after it.
+//! what is active before and after it.
 
 use std::io::{self, Write};
 
@@ -58,7 +58,7 @@ struct Origin {
     text: String,
 }
 
-/// A fact in force; `null` is what the program has not said.
+/// An active fact; `null` is what the program has not said.
 #[derive(Debug, Serialize)]
 struct Modal {
     what: &'static str,
@@ -230,7 +230,7 @@ fn tell(out: &mut dyn Write, answer: &Answer) -> io::Result<()> {
     match answer.state {
         "known" => {}
         "not executed" => return writeln!(out, "\nThe program does not come to this line."),
-        _ => return writeln!(out, "\nWhat is in force there could not be found out."),
+        _ => return writeln!(out, "\nWhat is active there could not be found out."),
     }
     let said: Vec<&Modal> = answer.modal.iter().filter(|m| m.before.is_some() || m.after.is_some()).collect();
     let shown = |value: &Option<String>| value.clone().unwrap_or_else(|| "not said".to_owned());

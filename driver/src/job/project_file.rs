@@ -49,7 +49,7 @@ fn refused(form: &'static str, program: &str) -> Problem {
     Problem::of(Exit::Refused, &problem(form).text("program", program).text("file", NAME), None)
 }
 
-/// Why nothing is written where several dialects fit: the row would answer which one, and nobody has.
+/// The refusal where several dialects fit: the row would choose one of them without the user.
 pub fn undecided(program: &str) -> Problem {
     refused("project-undecided", program)
 }

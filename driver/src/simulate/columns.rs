@@ -14,7 +14,7 @@
 //! | `move` | number of the move, from 1 |
 //! | `tool` | place of the tool in the document of `ncc simulate` |
 //! | `tilt` | 0, or the number of the tilted plane on which the tool stands, from 1; only where there are any |
-//! | `kind` | 0 rapid, 1 straight at feed, 2 clockwise, 3 counterclockwise, 4 where nobody knows how high |
+//! | `kind` | 0 rapid, 1 straight at feed, 2 clockwise, 3 counterclockwise, 4 rapid to an unknown height |
 
 use std::io::{self, Write};
 

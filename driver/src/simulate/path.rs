@@ -2,7 +2,7 @@
 //! which the program cuts first.
 //!
 //! A work offset that no profile states lies at the machine's zero, so that a place of the machine says nothing of the part:
-//! after a move to one (`G28`, `G53`) nobody knows how high the tool is, as at the start. Until the next move along Z it
+//! after a move to one (`G28`, `G53`) ncc does not know the height of the tool, as at the start. Until the next move along Z it
 //! stands as high as the program ever goes, and cuts nothing.
 
 use std::collections::BTreeMap;
@@ -73,13 +73,13 @@ pub struct Path {
     pub remarks: BTreeMap<i64, Remark>,
     /// The work offsets in which it moves.
     pub offsets: Vec<u16>,
-    /// Where the zeros of these lie, machine coordinates in mm, axis by axis; `None` where nobody has stated it.
+    /// Where the zeros of these lie, machine coordinates in mm, axis by axis; `None` where it is not stated.
     pub zeros: Vec<[Option<f64>; 3]>,
     /// The place in these of the one in which it cuts first.
     pub datum: usize,
     /// Whether it cuts in inches.
     pub inch: bool,
-    /// Whether it moves at heights that nobody knows.
+    /// Whether it moves at unknown heights.
     pub has_unknown_heights: bool,
     /// Seconds on the clock at the end.
     pub end: f64,
@@ -100,7 +100,7 @@ pub struct Recorder<'t> {
     highs: Vec<usize>,
     /// The greatest height that is known.
     top: f64,
-    /// The offset in force at the first cut, or else at the first move.
+    /// The active work offset at the first cut, or else at the first move.
     offset: Option<u16>,
     has_cut: bool,
     /// Where the rotary axes stood in the first cut without a plane.

@@ -113,7 +113,7 @@ pub struct Said {
 pub struct Tip {
     /// What the tool adds: X Y Z in nanos of a millimetre.
     pub tool: [Nanos; 3],
-    /// Work offset in force; 1 is the first.
+    /// Active work offset; 1 is the first.
     pub offset: u16,
     /// Where program zero lies, as the machine is without a tool, nanos of a millimetre.
     pub zero: [Nanos; 3],
@@ -176,9 +176,9 @@ pub trait Sink {
 /// Corners that a program leaves to the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Corners {
-    /// No path mode is in force.
+    /// No path mode is active.
     pub unsaid: bool,
-    /// One is in force that rounds, and no length says how far.
+    /// A rounding mode is active, without a stated distance.
     pub open: bool,
 }
 
@@ -196,9 +196,9 @@ pub struct Course {
     pub turns_onto_planes: bool,
     /// Whether it has points of the tool's tip.
     pub tip: bool,
-    /// Work offsets in force while it moves.
+    /// Active work offsets while it moves.
     pub offsets: BTreeSet<u16>,
-    /// Lengths in force while it moves.
+    /// Active lengths while it moves.
     pub lengths: BTreeSet<Length>,
     /// Whether it moves in machine coordinates.
     pub in_machine: bool,

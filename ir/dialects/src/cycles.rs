@@ -16,11 +16,11 @@ pub struct CycleRules {
     pub return_level: Option<ReturnLevelName>,
     /// The way to a hole; the option `cycle_approach` of a dictionary may choose another one.
     pub approach: ApproachName,
-    /// Whether Z and R stay in force from one cycle code to the next.
+    /// Whether Z and R stay active from one cycle code to the next.
     pub retained: bool,
     /// Whether they stay so only as long as it is the same code.
     pub retained_by_code: bool,
-    /// Whether words that stay in force are measured as the distance mode of each further block has it, not
+    /// Whether words that stay active are measured as the distance mode of each further block has it, not
     /// as they were when they were said.
     pub measured_anew: bool,
     /// Whether the initial level of a hole is where the tool stands before its block; else where it stood before the
@@ -33,15 +33,15 @@ pub struct CycleRules {
     pub any_plane: bool,
     /// Whether words of rotary axes can stand in a cycle's block.
     pub no_rotary: bool,
-    /// Whether no motion is in force after the code that ends a cycle: axis words alone are an error.
+    /// Whether no motion is active after the code that ends a cycle: axis words alone are an error.
     pub ends_motion: bool,
-    /// Whether a cycle that a subprogram calls up ends with it: it cannot be left in force to the caller.
+    /// Whether a cycle that a subprogram calls up ends with it: it cannot be left active to the caller.
     pub ends_with_call: bool,
     /// Letter of the number of repetitions in a cycle's block: 0 stores the data and makes no hole.
     pub repeat: Option<char>,
     /// Whether 0 is no such number.
     pub repeat_once: bool,
-    /// Whether the dwell that any cycle has said stays in force for a later cycle that can go without one.
+    /// Whether the dwell that any cycle has said stays active for a later cycle that can go without one.
     pub dwell_left: bool,
     /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
     /// needs one.
@@ -55,7 +55,7 @@ pub struct CycleRules {
 }
 
 impl CycleRules {
-    /// Whether what a cycle has said stays in force for one of another code.
+    /// Whether what a cycle has said stays active for one of another code.
     pub const fn retained_by_all(&self) -> bool {
         self.retained && !self.retained_by_code
     }
@@ -164,7 +164,7 @@ impl Hand {
 }
 
 /// A word that is a dwell on some machines and has no use on others. Where it is none, its value still stays
-/// in force for a cycle that has a use for it.
+/// active for a cycle that has a use for it.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct AskedDwell {

@@ -67,7 +67,7 @@ pub struct FormulaRules {
     /// Whether a word rounds what is computed for it to its increment.
     pub rounds: bool,
     /// Whether blocks in loops and behind labels are written with every fact that is known there, since the words of
-    /// another language lead to them; else as they are, with what is in force.
+    /// another language lead to them; else as they are, with what is active.
     pub restates: bool,
     /// Whether a decision is about blocks of its own, and can have others where it does not hold; else about one jump
     /// or one assignment.
@@ -172,7 +172,7 @@ pub enum Statement {
     Stop,
     /// A call of which the number, or how often, is computed.
     CallOf,
-    /// A code of which the number is a variable's, which has it from the codes in force.
+    /// A code of which the number is a variable's, which has it from the active codes.
     CodeOf,
     /// Places of tables that are read by a computed number.
     EntriesRead,

@@ -103,7 +103,7 @@ impl Dialect {
         all.find_map(|(refuse, help)| help.filter(|_| refuse.as_deref() == Some(name)))
     }
 
-    /// Values of the control's own that have numbers, with these; in the unit in force.
+    /// Values of the control's own that have numbers, with these; in the active unit.
     pub fn named_values(&self) -> impl Iterator<Item = (&SystemRow, u32, Expr)> {
         let rows = self.system.iter().filter(|row| row.refuse.is_none() && !row.machine_units && !row.zero);
         // One of many entries is found by its meaning.
@@ -119,7 +119,7 @@ impl Dialect {
         ToolValue::ALL.map(|value| words().any(|word| ToolValue::from(word.of) == value))
     }
 
-    /// Whether tools can be measured in the coordinates in force, and in those of a work offset.
+    /// Whether tools can be measured in the active coordinates, and in those of a work offset.
     pub(crate) fn measures_tools(&self) -> [bool; 2] {
         let rows = || self.data.iter().filter(|row| row.kind == DataKind::ToolHere);
         [rows().any(|row| row.in_offset == 0), rows().any(|row| row.in_offset != 0)]

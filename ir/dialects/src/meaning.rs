@@ -55,7 +55,7 @@ pub enum Meaning {
     /// With the tool's length, or without it.
     UseMachineCoordinates {
         length: bool,
-        /// Whether the move is rapid whatever motion is in force.
+        /// Whether the move is rapid whatever motion is active.
         rapid: bool,
     },
     /// A straight move at feed that ends where the probe says so. As a code of the group of motions it stays in
@@ -66,7 +66,7 @@ pub enum Meaning {
         point: ReferencePoint,
         keeps_length: bool,
     },
-    /// A rapid straight move to the block's words that goes another way. One from one side stays in force where a
+    /// A rapid straight move to the block's words that goes another way. One from one side stays active where a
     /// parameter of the control says so: bare axis words behind it are refused.
     Detour(Detour),
     /// Puts values into the table of the row of `[[data]]` that a word of the block names.
@@ -80,7 +80,7 @@ pub enum Meaning {
     /// From here on, the words of the plane's axes are radius and angle about program zero (`true`), or
     /// coordinates again. No statement: points carry it.
     PolarWords(bool),
-    /// By the radius of the entry that a word names, or that the dialect has in force.
+    /// By the radius of the entry that a word names, or the active one of the dialect.
     StartCutterRadiusCompensation(Side),
     /// The same by the diameter of the tool, which a word of the block states.
     StartCompensationByDiameter(Side),
@@ -100,7 +100,7 @@ pub enum Meaning {
     OrientSpindle,
     /// Takes up the length entry that a word of the block names.
     UseToolLengthOffset,
-    /// The block's Z word is the length in force, or is added to it; so is the length of the entry that a word
+    /// The block's Z word is the active length, or is added to it; so is the length of the entry that a word
     /// names.
     UseToolLength {
         added: bool,

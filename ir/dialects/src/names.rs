@@ -39,7 +39,7 @@ pub struct NameRow {
     #[serde(default)]
     pub group: String,
     /// Whether empty brackets behind a word that is refused say nothing: they go back to the basic setting, which is
-    /// in force wherever nothing else has been said.
+    /// active wherever nothing else has been said.
     #[serde(default)]
     pub empty_brackets: bool,
     /// Whether the value 0 of an address that is refused says nothing: it is the basic setting.
@@ -181,7 +181,7 @@ pub enum NameRole {
     ThroughY,
     /// Along Z.
     ThroughZ,
-    /// Angle of a rotation in the plane in force.
+    /// Angle of a rotation in the active plane.
     PlaneAngle,
     /// Distance before a corner where rounding begins.
     Rounding,
@@ -327,7 +327,7 @@ pub enum ParameterRole {
     Settle,
     /// 0 breaks the chip, 1 clears it; of a grid 0 is all its positions, 1 those of its border.
     Way,
-    /// The cycle's own plane: 0 the one in force, 1 XY, 2 ZX, 3 YZ.
+    /// The cycle's own plane: 0 the active one, 1 XY, 2 ZX, 3 YZ.
     WorkingPlane,
     /// Ones: how the depth is stated, 0 by its argument, 1 below the reference plane, 2 absolute. The rest must be one
     /// of `neutral`.
@@ -357,7 +357,7 @@ pub enum ParameterRole {
     ThreadSize,
     /// Pitch of a thread; negative for the left hand.
     ThreadPitch,
-    /// Unit of the pitch: 0 as in force, 1 millimetres.
+    /// Unit of the pitch: 0 as active, 1 millimetres.
     PitchUnit,
     /// Speed into the hole.
     Speed,

@@ -272,7 +272,7 @@ pub struct BlockRules {
     pub number: Option<char>,
     /// Whether the block number can only be the first word.
     pub number_first: bool,
-    /// Whether a feed counts in the units that were in force before the block, also if the block
+    /// Whether a feed counts in the units that were active before the block, also if the block
     /// changes them.
     pub feed_before_units: bool,
     /// Whether a block can have a dwell and a straight move, which comes behind it.
@@ -380,7 +380,7 @@ pub struct Can {
     /// plane even if it has words of none of its axes. Of others it is taken for granted that every corner is gone
     /// round, and that the first move with such words leads there, where the path has to be worked out.
     pub contour_left_at_once: bool,
-    /// Canned cycles are driven through every point, whatever path mode is in force (LinuxCNC's G61): no corner of
+    /// Canned cycles are driven through every point, whatever path mode is active (LinuxCNC's G61): no corner of
     /// theirs is rounded. It counts for times alone.
     pub cycles_in_exact_path: bool,
     /// Plain rounding of corners (G64) goes as far from the path as the acceleration asks for, without a tolerance. Else
@@ -392,7 +392,7 @@ pub struct Can {
     pub grid_upto: u32,
     /// Circles are written only with the centre at program zero and under the tool.
     pub circle_centre_at_zero_only: bool,
-    /// A subprogram's positions may mean what the caller has in force.
+    /// A subprogram's positions may depend on the modes of its caller.
     pub inherits_motion: bool,
     /// How corners are always taken, if there is no word for it.
     pub only_path: Option<PathName>,
@@ -403,7 +403,7 @@ pub struct Can {
     /// `file-per-tool`, each use of a tool is a program of its own. The control knows no lengths of tools: the operator
     /// sets the zero of Z by the tool that is put in.
     pub change_by_hand: bool,
-    /// No other zero may be set while a rotation, factors or a mirror are in force, and no mirror inside
+    /// No other zero may be set while a rotation, factors or a mirror are active, and no mirror inside
     /// a rotation or factors.
     pub frames_shut: bool,
     /// Any structure of the IR can be carried (the text form).

@@ -72,7 +72,7 @@ pub const CYCLE_BESIDE_MOTION: &str = "cycle_beside_motion";
 /// Value of [`CYCLE_BESIDE_MOTION`]: the hole is drilled.
 pub const MOTION_DRILLED: &str = "drilled";
 
-/// Value of [`CYCLE_BESIDE_MOTION`]: the axes move by the code of motion, and no cycle is in force.
+/// Value of [`CYCLE_BESIDE_MOTION`]: the axes move by the code of motion, and no cycle is active.
 pub const MOTION_CANCELS: &str = "cancelled";
 
 /// Option of a dictionary: whether a tool is changed before or after the axes of its block move.

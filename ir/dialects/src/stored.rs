@@ -29,16 +29,16 @@ pub struct DataRow {
     pub first: u16,
     /// How many entries it has.
     pub count: u16,
-    /// Whether entry 0 is the work offset in force.
+    /// Whether entry 0 is the active work offset.
     #[serde(default)]
     pub zero_current: bool,
-    /// Whether values are added to those that are there while incremental coordinates are in force.
+    /// Whether values are added to those that are there while incremental coordinates are active.
     #[serde(default)]
     pub adds: bool,
-    /// Whether what is in force of a tool stays as it is until it is called up anew; else nobody knows.
+    /// Whether what is active of a tool stays as it is until it is called up anew; else nobody knows.
     #[serde(default)]
     pub kept: bool,
-    /// Where tools are measured, the work offset in whose coordinates; 0 is those in force.
+    /// Where tools are measured, the work offset in whose coordinates; 0 is those active.
     #[serde(default)]
     pub in_offset: u16,
     /// Of tools, the words of a block: what each is, and its letter.
@@ -147,7 +147,7 @@ pub struct SystemRow {
     pub name: String,
     /// Whether there is one for each of X, Y, Z, A, B and C, by the numbers that follow.
     pub axes: bool,
-    /// Whether lengths count in the machine's own unit, whatever is in force: the option `machine_units`.
+    /// Whether lengths count in the machine's own unit, whatever is active: the option `machine_units`.
     pub machine_units: bool,
     /// Whether there is one for each entry of a table, from 1 on, by the numbers that follow: as many as `count`.
     pub entries: bool,
@@ -225,7 +225,7 @@ pub struct SystemTerm {
 }
 
 impl SystemRow {
-    /// The value of one of its parameters by its place among them, lengths in this unit, or else in the one in force;
+    /// The value of one of its parameters by its place among them, lengths in this unit, or else in the active one;
     /// `None` where it is none that is known.
     pub fn value(&self, place: u32, unit: &str) -> Option<Expr> {
         let node = |node| Expr::Node(Box::new(node));

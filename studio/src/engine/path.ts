@@ -15,7 +15,7 @@ export const enum Kind {
   Clockwise = 2,
   /** A piece of an arc, counter-clockwise. */
   Counterclockwise = 3,
-  /** A rapid move to where nobody knows how high the tool is. */
+  /** A rapid move to an unknown height. */
   Away = 4,
 }
 

@@ -58,7 +58,7 @@ fn a_place_of_the_machine_is_one_of_the_part_where_both_are_stated() {
     assert!(path.has_unknown_heights);
 }
 
-/// Where they are not, nobody knows how high the tool is there, nor at the start.
+/// Without them the height of the tool is unknown there, and at the start.
 #[test]
 fn a_place_of_the_machine_says_nothing_of_the_part_where_nothing_is_stated() {
     let path = path(Tables::default(), BLOCKS);
