@@ -6,7 +6,7 @@
 //! what is wrong with it is told with its place.
 //!
 //! ```text
-//! [power_on]            what is in force when the control starts
+//! [power_on]            what is active when the control starts
 //! units = "mm"
 //! [[tool]]              a row of its tool table
 //! number = 3

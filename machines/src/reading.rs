@@ -99,7 +99,7 @@ pub const EDGE_IS_ENTRY: &str = "edge-1-is-length-entry";
 pub const RADIUS_IS_ENTRY: &str = "radius-entry-is-tool";
 
 /// Key of the reading that positions under a cycle are reached in rapid, and that the motion before a
-/// cycle is in force again after it.
+/// cycle is active again after it.
 pub const MOTION_AT_CYCLES: &str = "motion-at-cycles";
 
 /// Key of the reading that a control without a word for it always takes corners in one way.

@@ -250,7 +250,7 @@ macro_rules! names_of_the_dictionary {
 names_of_the_dictionary!(UnitsName, DistanceName, PlaneName, FeedModeName, ReturnLevelName, MotionName);
 
 table! {
-    /// What is in force when a program starts. A fact that is stated here is taken for granted and
+    /// What is active when a program starts. A fact that is stated here is taken for granted and
     /// no assumption any more.
     PowerOn "[power_on]" {
         /// Unit of length.
