@@ -12,6 +12,14 @@ pub(crate) const STRIDE: usize = 5_000;
 /// From one whole map to the next, so many strides.
 const KEY: usize = 32;
 
+/// Cells of a row that are looked at together: most of them have not changed.
+const GROUP: usize = 16;
+
+/// Whether any of these moves is after another. Both are below 2³¹, so that a difference tells which is less.
+fn any_after(moves: &[u32], before: u32) -> bool {
+    moves.iter().fold(0, |all, own| all | before.wrapping_sub(*own)) >> 31 == 1
+}
+
 /// Changes of a stride.
 #[derive(Clone, Debug, Default)]
 struct Changes {
@@ -31,17 +39,36 @@ impl Changes {
     /// Adds the cells of a part of a row that moves of the stride have cut.
     fn add(&mut self, map: &HeightMap, cells: std::ops::Range<usize>, before: usize) {
         let before = before as u32;
-        let under = map.hollows.range(cells.clone());
-        let under = under.filter(|(cell, own)| own.last > before && map.last[*cell] <= before);
-        self.under.extend(under.map(|(cell, own)| (cell, own.clone())));
+        if !map.hollows.is_empty() {
+            let under = map.hollows.range(cells.clone());
+            let under = under.filter(|(cell, own)| own.last > before && map.last[*cell] <= before);
+            self.under.extend(under.map(|(cell, own)| (cell, own.clone())));
+        }
+        for first in cells.clone().step_by(GROUP) {
+            let group = first..cells.end.min(first + GROUP);
+            if any_after(&map.last[group.clone()], before) {
+                self.add_group(map, group, before);
+            }
+        }
+    }
+
+    /// The same of few cells, some of which were cut.
+    fn add_group(&mut self, map: &HeightMap, cells: std::ops::Range<usize>, before: u32) {
         let (mut first, end) = (cells.start, cells.end);
         while let Some(skipped) = map.last[first..end].iter().position(|last| *last > before) {
             first += skipped;
             let rest = &map.last[first..end];
             let count = rest.iter().position(|last| *last <= before).unwrap_or(rest.len());
-            self.runs.push((first as u32, count as u16));
-            let hollows = map.hollows.range(first..first + count);
-            self.hollows.extend(hollows.map(|(cell, own)| (cell, own.clone())));
+            match self.runs.last_mut() {
+                Some((run, length)) if *run as usize + usize::from(*length) == first => {
+                    *length += count as u16
+                }
+                _ => self.runs.push((first as u32, count as u16)),
+            }
+            if !map.hollows.is_empty() {
+                let hollows = map.hollows.range(first..first + count);
+                self.hollows.extend(hollows.map(|(cell, own)| (cell, own.clone())));
+            }
             self.heights.extend_from_slice(&map.heights[first..first + count]);
             self.last.extend(rest[..count].iter().map(|last| (last - before - 1) as u16));
             first += count;

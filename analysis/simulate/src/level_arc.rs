@@ -76,6 +76,11 @@ impl Surface for Ring<'_> {
         };
         distance.cmp_le(f32x4::splat(self.band.outer as f32)).blend(height, f32x4::splat(f32::INFINITY))
     }
+
+    #[inline(always)]
+    fn least(&self, _cells: usize) -> f32 {
+        (self.band.base as f32) + self.floor
+    }
 }
 
 /// An arc about the origin. Its end may be a little farther from there than its start, or nearer, as controls allow it for

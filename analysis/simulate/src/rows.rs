@@ -11,7 +11,7 @@
 
 use std::ops::Range;
 
-use wide::{CmpGe, CmpGt, CmpLe, f32x4};
+use wide::{CmpGe, CmpLe, f32x4};
 
 use crate::surface::{COUNT, LANES, between, not_below_zero};
 
@@ -33,16 +33,6 @@ pub(crate) struct Rows {
     pub(crate) cell: f32,
     /// Cells of a row.
     pub(crate) columns: usize,
-}
-
-/// The low end of a line. Behind it, and below the level part of the tool, no other place of the way is as low.
-pub(crate) struct LowEnd {
-    /// Its place.
-    pub(crate) at: [f32; 2],
-    /// The direction in which the way rises from there.
-    pub(crate) uphill: [f32; 2],
-    /// Square of the radius of what is level; 0 where nothing is.
-    pub(crate) level: f32,
 }
 
 /// Cells of four rows, counted from the first of a row.
@@ -68,7 +58,7 @@ impl Rows {
 
     /// From and to which X rows are touched; the first is greater where none is.
     #[inline(always)]
-    pub(crate) fn reach(&self, row: usize) -> [f32x4; 2] {
+    fn reach(&self, row: usize) -> [f32x4; 2] {
         let y = self.y(row);
         let (none, square) = (f32x4::splat(f32::INFINITY), f32x4::splat(self.radius * self.radius));
         let (mut low, mut high) = (none, -none);
@@ -94,57 +84,31 @@ impl Rows {
         [low, high]
     }
 
-    /// Where the low end is what counts, of what is touched.
+    /// The part of it that is more than so far along the line.
     #[inline(always)]
-    pub(crate) fn own(&self, row: usize, [left, right]: [f32x4; 2], end: &LowEnd) -> [f32x4; 2] {
-        let y = self.y(row) - end.at[1];
-        let [ux, uy] = end.uphill;
-        let (none, x) = (f32x4::splat(f32::INFINITY), f32x4::splat(end.at[0]));
-        // Behind is where (place - end) · uphill is below zero.
-        let [low, high] = if ux > 1e-6 {
-            [left, right.fast_min(x - y * (uy / ux))]
-        } else if ux < -1e-6 {
-            [left.fast_max(x - y * (uy / ux)), right]
+    fn beyond(&self, row: usize, [left, right]: [f32x4; 2], done: f32) -> [f32x4; 2] {
+        let [ux, uy] = self.along;
+        // Where x · ux + y · uy is that far.
+        let x = || (-self.y(row) * uy + done) * (1.0 / ux);
+        if ux > 1e-3 {
+            [left.fast_max(x()), right]
+        } else if ux < -1e-3 {
+            [left, right.fast_min(x())]
         } else {
-            let behind = (y * uy).cmp_le(f32x4::ZERO);
-            [behind.blend(left, none), behind.blend(right, -none)]
-        };
-        if end.level == 0.0 {
-            return [low, high];
+            [left, right]
         }
-        let half = f32x4::splat(end.level) - y * y;
-        let on = half.cmp_gt(f32x4::ZERO);
-        let half = not_below_zero(half).sqrt();
-        let [from, to] = [on.blend(x - half, none), on.blend(x + half, -none)];
-        // Both where they touch; the level part alone where nothing is behind; else what is behind.
-        let joined = from.cmp_le(high) & to.cmp_ge(low);
-        let alone = low.cmp_gt(high);
-        [
-            joined.blend(low.fast_min(from), alone.blend(from, low)),
-            joined.blend(high.fast_max(to), alone.blend(to, high)),
-        ]
     }
 
-    /// Cells with centres between two X of each row.
+    /// Cells that are touched and more than `done` along the line, mm.
     #[inline(always)]
-    pub(crate) fn cells(&self, [low, high]: [f32x4; 2], border: f32) -> Four {
+    pub(crate) fn touched(&self, row: usize, done: Option<f32>) -> Four {
+        let reach = self.reach(row);
+        let [low, high] = done.map_or(reach, |done| self.beyond(row, reach, done));
         let (most, per_mm) = (f32x4::splat(self.columns as f32), 1.0 / self.cell);
         // The cell behind each place, whatever its sign: whole numbers are cut, not rounded down.
         let place = |x: f32x4, off: f32| {
             between((x - self.first[0]) * per_mm + (1.0 + off), f32x4::ZERO, most).fast_trunc_int().to_array()
         };
-        Four { first: place(low, -border), behind: place(high, border) }
-    }
-
-    /// Cells that are touched.
-    #[inline(always)]
-    pub(crate) fn touched(&self, reach: [f32x4; 2]) -> Four {
-        self.cells(reach, BORDER)
-    }
-
-    /// Cells where the low end is what counts.
-    #[inline(always)]
-    pub(crate) fn of_end(&self, own: [f32x4; 2]) -> Four {
-        self.cells(own, -BORDER)
+        Four { first: place(low, -BORDER), behind: place(high, BORDER) }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use wide::{CmpLt, f32x4};
+use wide::{CmpGt, CmpLt, f32x4};
 
 use crate::alarm::{Alarm, AlarmKind};
 use crate::cut::{Cut, Hit, Removed, TOUCH, cut_between, probe_between, take};
@@ -419,6 +419,22 @@ impl Cutting<'_> {
         }
     }
 
+    /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
+    #[cold]
+    fn last_row(&mut self, begin: usize, count: usize, surface: &impl Surface) {
+        let (heights, last) =
+            (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
+        for (n, (heights, last)) in heights.chunks_mut(LANES).zip(last.chunks_mut(LANES)).enumerate() {
+            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
+            few[..heights.len()].copy_from_slice(heights);
+            of[..last.len()].copy_from_slice(last);
+            let new = surface.at(COUNT + f32x4::splat((n * LANES) as f32));
+            self.sums.lower(&mut few, &mut of, new.to_array(), self.number);
+            heights.copy_from_slice(&few[..heights.len()]);
+            last.copy_from_slice(&of[..last.len()]);
+        }
+    }
+
     /// Adds what was removed since the last time: single precision is fine enough for so much.
     fn add_up(&mut self) {
         let Sums { volumes, depths } = std::mem::take(&mut self.sums);
@@ -451,19 +467,6 @@ impl Sums {
     }
 }
 
-impl Sums {
-    /// The same where there are fewer cells.
-    #[cold]
-    fn lower_few(&mut self, heights: &mut [f32], last: &mut [u32], new: [f32; LANES], number: u32) {
-        let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
-        few[..heights.len()].copy_from_slice(heights);
-        of[..last.len()].copy_from_slice(last);
-        self.lower(&mut few, &mut of, new, number);
-        heights.copy_from_slice(&few[..heights.len()]);
-        last.copy_from_slice(&of[..last.len()]);
-    }
-}
-
 impl Cells for Cutting<'_> {
     #[inline]
     fn grid(&self) -> Grid {
@@ -481,36 +484,27 @@ impl Cells for Cutting<'_> {
             self.row_with_hollows(row, columns, surface);
             return;
         }
-        let start = row * self.map.grid.cells[0];
-        let (begin, end) = (start + columns.start, start + columns.end);
-        let (heights, last) = (&mut self.map.heights[begin..end], &mut self.map.last[begin..end]);
+        let begin = row * self.map.grid.cells[0] + columns.start;
+        let whole = begin..begin + columns.len().next_multiple_of(LANES);
+        let Some(heights) = self.map.heights.get_mut(whole.clone()) else {
+            self.last_row(begin, columns.len(), surface);
+            return;
+        };
+        let last = &mut self.map.last[whole];
         let mut sums = self.sums;
-        let (by_four, _) = heights.as_chunks_mut::<LANES>();
-        let (last_by_four, _) = last.as_chunks_mut::<LANES>();
-        let mut first = COUNT;
-        for (heights, last) in by_four.iter_mut().zip(last_by_four) {
-            let new = surface.at(first);
-            // Most of what a tool goes over is cut already.
-            if new.cmp_lt(f32x4::new(*heights)).any() {
-                sums.lower(heights, last, new.to_array(), self.number);
-            }
-            first += f32x4::splat(LANES as f32);
-        }
-        let count = end - begin;
-        if count % LANES > 0 {
-            // The last group has some cells once more, which changes nothing, or of those before it, which are left out.
-            let first = end - LANES.min(end);
-            let off = first as f32 - begin as f32;
-            let places = COUNT + f32x4::splat(off);
-            let new = places.cmp_lt(f32x4::ZERO).blend(f32x4::splat(f32::INFINITY), surface.at(places));
-            let (heights, last) = (&mut self.map.heights[first..end], &mut self.map.last[first..end]);
-            match (heights.first_chunk_mut(), last.first_chunk_mut()) {
-                (Some(heights), Some(last)) if new.cmp_lt(f32x4::new(*heights)).any() => {
+        let least = f32x4::splat(surface.least(columns.len()));
+        let (count, mut at) = (f32x4::splat(columns.len() as i32 as f32), COUNT);
+        for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
+            let old = f32x4::new(*heights);
+            // Most of what a tool goes over is cut already: the surface is looked at where it may be lower, and cells are
+            // written where it is. Cells behind the last one are those of the next row, and stay.
+            if old.cmp_gt(least).any() {
+                let new = at.cmp_lt(count).blend(surface.at(at), f32x4::splat(f32::INFINITY));
+                if new.cmp_lt(old).any() {
                     sums.lower(heights, last, new.to_array(), self.number);
                 }
-                (Some(_), Some(_)) => {}
-                _ => sums.lower_few(heights, last, new.to_array(), self.number),
             }
+            at += f32x4::splat(LANES as f32);
         }
         self.sums = sums;
     }

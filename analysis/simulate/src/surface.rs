@@ -1,10 +1,10 @@
 //! Surfaces that tools leave over the cells of a row, four cells at once.
 //!
-//! Along a line, cells lie `s` along it and `d` across ([`Across`]); around a place, so far from it ([`Around`]).
+//! Along a line, cells lie `s` along it and `d` across ([`Across`]).
 
 use std::ops::Range;
 
-use wide::{CmpGt, CmpLe, CmpLt, f32x4};
+use wide::{CmpGe, CmpGt, CmpLe, CmpLt, f32x4};
 
 use crate::map::Grid;
 
@@ -31,11 +31,11 @@ pub(crate) trait Cells {
 
 /// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
 pub(crate) trait Surface {
-    /// From so many cells of a row on, finding where an easier one counts is less work than this one. It was measured.
-    const SPLIT: usize = usize::MAX;
-
     /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
     fn at(&self, i: f32x4) -> f32x4;
+
+    /// A height that it does not go below over the first so many cells.
+    fn least(&self, cells: usize) -> f32;
 }
 
 /// The values that all surfaces along a line share.
@@ -51,6 +51,12 @@ pub(super) struct Sloped {
 }
 
 impl Sloped {
+    /// The band's lowest point anywhere on the way.
+    #[inline(always)]
+    pub(super) fn bottom(&self) -> f32 {
+        self.floor + (self.rise * self.at.length).min(0.0)
+    }
+
     /// How far along the way the band touches what is so far from it.
     #[inline(always)]
     pub(super) fn half(&self, d: f32x4) -> f32x4 {
@@ -74,66 +80,10 @@ impl<W: Surface> Surface for Within<W> {
         let inside = (d * d + e * e).cmp_le(f32x4::splat(self.outer));
         inside.blend(self.way.at(i), f32x4::splat(f32::INFINITY))
     }
-}
 
-/// Distances of the cells of a row from a place.
-#[derive(Clone, Copy)]
-pub(super) struct Around {
-    pub(super) x: f32,
-    pub(super) dx: f32,
-    pub(super) y2: f32,
-}
-
-impl Around {
-    /// Squares of their distances.
     #[inline(always)]
-    pub(super) fn squares(&self, i: f32x4) -> f32x4 {
-        let x = i * self.dx + self.x;
-        x * x + self.y2
-    }
-}
-
-/// A ball that stands at a place.
-pub(super) struct BallAt {
-    pub(super) around: Around,
-    /// Its centre.
-    pub(super) top: f32,
-    pub(super) square: f32,
-}
-
-impl Surface for BallAt {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        f32x4::splat(self.top) - not_below_zero(f32x4::splat(self.square) - self.around.squares(i)).sqrt()
-    }
-}
-
-/// Round corners that stand at a place.
-pub(super) struct RoundAt {
-    pub(super) around: Around,
-    pub(super) floor: f32,
-    pub(super) round: Round,
-}
-
-impl Surface for RoundAt {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        self.round.height(self.around.squares(i)) + self.floor
-    }
-}
-
-/// A cone that stands at a place.
-pub(super) struct ConeAt {
-    pub(super) around: Around,
-    pub(super) floor: f32,
-    pub(super) slope: f32,
-    pub(super) inner: f32,
-}
-
-impl Surface for ConeAt {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        not_below_zero(self.around.squares(i).sqrt() - self.inner) * self.slope + self.floor
+    fn least(&self, cells: usize) -> f32 {
+        self.way.least(cells)
     }
 }
 
@@ -145,14 +95,17 @@ impl Surface for Level {
     fn at(&self, _i: f32x4) -> f32x4 {
         f32x4::splat(self.0)
     }
+
+    #[inline(always)]
+    fn least(&self, _cells: usize) -> f32 {
+        self.0
+    }
 }
 
 /// A level bottom: the lowest end of what touches.
 pub(super) struct Flat(pub(super) Sloped);
 
 impl Surface for Flat {
-    const SPLIT: usize = 40;
-
     #[inline(always)]
     fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.0;
@@ -160,6 +113,11 @@ impl Surface for Flat {
         let half = own.half(d);
         let half = if own.rise < 0.0 { half } else { -half };
         own.at.clamped(s + half) * own.rise + own.floor
+    }
+
+    #[inline(always)]
+    fn least(&self, _cells: usize) -> f32 {
+        self.0.bottom()
     }
 }
 
@@ -190,6 +148,12 @@ impl Surface for Ball {
         let e = s - t;
         t * own.rise + (own.floor + self.radius) - not_below_zero(left - e * e).sqrt()
     }
+
+    #[inline(always)]
+    fn least(&self, cells: usize) -> f32 {
+        let d = self.own.at.nearest(cells);
+        self.own.bottom() + self.radius - (self.square - d * d).max(0.0).sqrt()
+    }
 }
 
 /// Round corners on a level way.
@@ -205,6 +169,12 @@ impl Surface for LevelRound {
         let e = s - self.own.at.clamped(s);
         self.round.height(d * d + e * e) + self.own.floor
     }
+
+    #[inline(always)]
+    fn least(&self, cells: usize) -> f32 {
+        let d = self.own.at.nearest(cells);
+        self.own.bottom() + self.round.least(d * d)
+    }
 }
 
 /// Round corners on a slope.
@@ -214,15 +184,28 @@ pub(super) struct SlopedRound {
 }
 
 impl Surface for SlopedRound {
-    const SPLIT: usize = 0;
-
     #[inline(always)]
     fn at(&self, i: f32x4) -> f32x4 {
         let own = &self.own;
         let (s, d) = own.at.of(i);
+        // Below the level part of the low end, and beyond it, none of the way is as low.
+        let low = if own.rise < 0.0 { own.at.length } else { 0.0 };
+        let e = s - low;
+        let square = d * d + e * e;
+        let beyond = if own.rise < 0.0 { e } else { -e };
+        let inner = f32x4::splat(self.round.inner * self.round.inner);
+        if (beyond.cmp_ge(f32x4::ZERO) | square.cmp_le(inner)).all() {
+            return self.round.height(square) + own.bottom();
+        }
         let t = own.at.clamped(s - self.round.touch(d, own.rise));
         let e = s - t;
         t * own.rise + self.round.height(d * d + e * e) + own.floor
+    }
+
+    #[inline(always)]
+    fn least(&self, cells: usize) -> f32 {
+        let d = self.own.at.nearest(cells);
+        self.own.bottom() + self.round.least(d * d)
     }
 }
 
@@ -253,6 +236,12 @@ impl Surface for Cone {
         let e = s - t;
         t * own.rise + not_below_zero((d * d + e * e).sqrt() - self.inner) * self.slope + own.floor
     }
+
+    #[inline(always)]
+    fn least(&self, cells: usize) -> f32 {
+        let beyond = (self.own.at.nearest(cells) - self.inner).max(0.0);
+        self.own.bottom() + beyond * self.slope
+    }
 }
 
 /// Coordinates of the cells of a row along and across a line.
@@ -269,6 +258,13 @@ impl Across {
     #[inline(always)]
     pub(super) fn of(&self, i: f32x4) -> (f32x4, f32x4) {
         (i * self.ds + self.s, i * self.dd + self.d)
+    }
+
+    /// The least distance of the first so many cells from the line, which goes on at both ends.
+    #[inline(always)]
+    pub(super) fn nearest(&self, cells: usize) -> f32 {
+        let last = self.d + (cells as f32 - 1.0) * self.dd;
+        if self.d * last <= 0.0 { 0.0 } else { self.d.abs().min(last.abs()) }
     }
 
     #[inline(always)]
@@ -301,6 +297,12 @@ impl Round {
         let beyond = not_below_zero(square.sqrt() - self.inner);
         let all = f32x4::splat(self.radius * self.radius);
         f32x4::splat(self.radius) - not_below_zero(all - beyond * beyond).sqrt()
+    }
+
+    /// The height at a distance, which is given as its square.
+    #[inline(always)]
+    pub(super) fn least(&self, square: f32) -> f32 {
+        self.height(f32x4::splat(square)).to_array()[0]
     }
 
     /// How far the tip is from the foot of a cell where the tool, which rises, comes lowest over it. There

@@ -15,10 +15,9 @@ use std::ops::Range;
 use crate::band::{Band, Form};
 use crate::level_arc::{WIDEST, level_arc};
 use crate::moves::Way;
-use crate::rows::{LowEnd, Rows};
+use crate::rows::Rows;
 use crate::surface::{
-    Across, Around, Ball, BallAt, Cells, Cone, ConeAt, Flat, LANES, Level, LevelRound, Round, RoundAt,
-    Sloped, SlopedRound, Surface, Within,
+    Across, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Sloped, SlopedRound, Surface, Within,
 };
 use crate::tool::Cutter;
 
@@ -144,26 +143,26 @@ impl Line {
 
     /// The surface that a band leaves.
     fn sweep(&self, cells: &mut impl Cells, band: &Band) {
-        let low = self.low();
-        let (floor, bottom) = ((self.from[2] + band.base) as f32, (low[2] + band.base) as f32);
+        let floor = (self.from[2] + band.base) as f32;
         let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
         let own = |at| Sloped { at, floor, rise, outer };
+        // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
+        let done = (self.continues && rise >= 0.0).then_some(0.0);
         match band.form {
-            Form::Flat if rise == 0.0 => self.rows(cells, band, |_| Level(floor), |_| Level(bottom)),
-            Form::Flat => self.rows(cells, band, |at| Flat(own(at)), |_| Level(bottom)),
+            Form::Flat if rise == 0.0 => self.rows(cells, band, done, |_| Level(floor)),
+            Form::Flat => self.rows(cells, band, done, |at| Flat(own(at))),
             Form::Round(radius) if band.inner == 0.0 => {
                 let ahead = rise / (1.0 + rise * rise).sqrt();
                 let (radius, square) = (radius as f32, (radius * radius) as f32);
-                let top = bottom + radius;
-                let ball = |at| Ball { own: own(at), radius, square, ahead };
-                self.rows(cells, band, ball, |around| BallAt { around, top, square });
+                // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
+                let done = self.continues.then_some(radius * ahead.min(0.0));
+                self.rows(cells, band, done, |at| Ball { own: own(at), radius, square, ahead });
             }
             Form::Round(radius) => {
                 let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
-                let end = |around| RoundAt { around, floor: bottom, round };
                 match rise == 0.0 {
-                    true => self.rows(cells, band, |at| LevelRound { own: own(at), round }, end),
-                    false => self.rows(cells, band, |at| SlopedRound { own: own(at), round }, end),
+                    true => self.rows(cells, band, done, |at| LevelRound { own: own(at), round }),
+                    false => self.rows(cells, band, done, |at| SlopedRound { own: own(at), round }),
                 }
             }
             Form::Cone(slope) => {
@@ -173,20 +172,19 @@ impl Line {
                 let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
                 let beside = if steep { sense } else { 0.0 };
                 let cone = |at| Cone { own: own(at), slope, inner, ahead, beside, sense };
-                self.rows(cells, band, cone, |around| ConeAt { around, floor: bottom, slope, inner });
+                self.rows(cells, band, done, cone);
             }
         }
     }
 
-    /// Goes over the rows that a band touches, with the surface of the way, and with that of its low end where this one
-    /// counts and is easier to know. What the tool has cut already where it stood is left out.
+    /// Goes over the rows that a band touches. `done`: cells up to so far along the line are cut already.
     #[inline(always)]
-    fn rows<W: Surface, E: Surface>(
+    fn rows<W: Surface>(
         &self,
         cells: &mut impl Cells,
         band: &Band,
+        done: Option<f32>,
         way: impl Fn(Across) -> W,
-        end: impl Fn(Around) -> E,
     ) {
         let grid = cells.grid();
         let radius = band.outer;
@@ -229,62 +227,15 @@ impl Line {
             cell,
             columns: columns.len(),
         };
-        let done = self.continues && self.rise >= 0.0;
-        let low = (done || columns.len() >= W::SPLIT && self.rise != 0.0).then(|| self.low_end(band));
         for four in (0..rows.len()).step_by(LANES) {
-            let reach = touched.reach(four);
-            let all = touched.touched(reach);
-            let own = low.as_ref().map(|low| touched.of_end(touched.own(four, reach, low)));
+            let all = touched.touched(four, done);
             for (lane, row) in (four..rows.len().min(four + LANES)).enumerate() {
-                let all = all.of(lane);
-                let mut put = |of: Range<usize>, surface: &_| {
-                    if !of.is_empty() {
-                        cells.row(
-                            rows.start + row,
-                            columns.start + of.start..columns.start + of.end,
-                            surface,
-                        );
-                    }
-                };
-                let own = own.as_ref().map_or(0..0, |own| own.of(lane));
-                let own = own.start.clamp(all.start, all.end.max(all.start))..own.end;
-                if own.is_empty() {
-                    put(all.clone(), &way(across(row, all.start)));
-                    continue;
-                }
-                put(all.start..own.start, &way(across(row, all.start)));
-                put(own.end..all.end, &way(across(row, own.end)));
-                if !done {
-                    let [x, y] = self.low_from_start();
-                    let off = first[1] as f32 + row as f32 * cell - y;
-                    let x = first[0] as f32 + own.start as f32 * cell - x;
-                    let of = columns.start + own.start..columns.start + own.end.min(all.end);
-                    cells.row(rows.start + row, of, &end(Around { x, dx: cell, y2: off * off }));
+                let of = all.of(lane);
+                if !of.is_empty() {
+                    let surface = way(across(row, of.start));
+                    cells.row(rows.start + row, columns.start + of.start..columns.start + of.end, &surface);
                 }
             }
-        }
-    }
-
-    /// The end where the tip is lowest.
-    fn low(&self) -> &[f64; 3] {
-        if self.rise > 0.0 { &self.from } else { &self.to }
-    }
-
-    /// The low end, for a band.
-    fn low_end(&self, band: &Band) -> LowEnd {
-        let sense = if self.rise < 0.0 { -1.0 } else { 1.0 };
-        LowEnd {
-            at: self.low_from_start(),
-            uphill: self.along.map(|part| (part * sense) as f32),
-            level: (band.inner * band.inner) as f32,
-        }
-    }
-
-    /// Where the low end is, from the start, which is that of a level line.
-    fn low_from_start(&self) -> [f32; 2] {
-        match self.rise < 0.0 {
-            true => [0, 1].map(|axis| (self.to[axis] - self.from[axis]) as f32),
-            false => [0.0; 2],
         }
     }
 }
