@@ -1,3 +1,4 @@
 NC0208 = decimal point in `{ $word }`
     .label = this word takes a whole number
-    .help = write it without a decimal point
+    .help = write a whole number
+    .help-whole = write `{ $whole }`

@@ -10,7 +10,7 @@ use super::calls::repetition::RepeatedText;
 use super::lower::Lower;
 use super::o_code::o_state::StandaloneOsub;
 use super::text::block;
-use super::text::block::Block;
+use super::text::block::{Block, is_misspelt};
 use super::text::fast_computed;
 use super::text::frame::Frame;
 use super::text::token::Signs;
@@ -357,6 +357,7 @@ impl Reader {
         self.frame.blocks |= !block.words.is_empty() || block.skip != 0 || block.decision.is_some();
         self.frame.blocks |= !block.settings.is_empty();
         self.frame.faulty |= !self.block.faults.is_empty();
+        self.lower.o.misspelt |= self.block.faults.iter().any(|(fault, _)| is_misspelt(fault));
         self.lower.block(&self.block, src, out);
         // An end within a structure is not that of the text.
         self.lower.ended &= self.lower.o.open.is_empty();

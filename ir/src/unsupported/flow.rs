@@ -73,6 +73,13 @@ reasons! {
         OEnd,
         /// This code without its end.
         OUnclosed,
+        /// A word after a label that is none of the O words.
+        OWord,
+        /// The same, which is nearly one of them.
+        OWordNear {
+            /// The one that it is nearly.
+            nearest: Box<str>,
+        },
         /// This label occurs twice.
         OLabelTwice,
         /// This code after a `continue` of the same `do` loop.

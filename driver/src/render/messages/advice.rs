@@ -126,6 +126,14 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         {
             vec![Help::new("help-code").text("variable", variable)]
         }
+        Fault::PointNotAllowed { word } => {
+            let whole = word.split_once('.').filter(|(_, digits)| digits.bytes().all(|digit| digit == b'0'));
+            vec![
+                whole.map_or(Help::new("help"), |(whole, _)| {
+                    Help::new("help-whole").text("whole", plain(whole))
+                }),
+            ]
+        }
         Fault::NoToolSelected => {
             let preselected =
                 has(at.from, FIRST_TOOL).then(|| Help::new("help-first-tool").text("option", FIRST_TOOL));

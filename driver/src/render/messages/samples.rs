@@ -86,6 +86,7 @@ fn text_and_meaning() -> Vec<Fault> {
         WordTwice { letter: 'X' },
         TooManyCodes { letter: 'M', limit: 1 },
         PointNotAllowed { word: "S5000.".into() },
+        PointNotAllowed { word: "P1.5".into() },
         NoMotionMode,
         ArcWithoutCentre,
         ArcCentreAndRadius,

@@ -33,6 +33,8 @@ pub(in crate::word) struct OWordState {
     pub(in crate::word) repeats: Option<Span>,
     /// Structures stand in one another deeper than they are read: none is looked at any more.
     pub(in crate::word) too_deep: bool,
+    /// A word that opens or closes a structure was misspelt: which one is open nobody knows.
+    pub(in crate::word) misspelt: bool,
 }
 
 /// What has not been closed.

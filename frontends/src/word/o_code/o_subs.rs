@@ -15,7 +15,7 @@ use ncc_ir::source::Span;
 use ncc_ir::unsupported::{CallUnsupported, FlowUnsupported};
 
 use super::o_state::{Outer, StructureKind};
-use super::statements::{Decision, spelled};
+use super::statements::{Decision, label_text, spelled};
 use crate::batch::Batch;
 use crate::common::Source;
 use crate::word::lower::Lower;
@@ -33,7 +33,7 @@ const DEEPEST: usize = 100;
 const WHOLE: Num = Num { mantissa: 1, scale: 4, point: true, unit: Unit::One };
 
 pub(in crate::word) fn refused(label: &str, word: FlowWord, what: FlowUnsupported) -> Fault {
-    Fault::not_supported(format!("O{label} {}", spelled(word)), what)
+    Fault::not_supported(format!("{} {}", label_text(label), spelled(word)), what)
 }
 
 /// The label of a block, if it is no computed one.
@@ -150,6 +150,9 @@ impl Reader {
         let failed = lower.now.failed;
         lower.centre_said_elsewhere(out);
         let Some(outer) = lower.close_sub(name) else {
+            if lower.o.misspelt {
+                return;
+            }
             let fault = refused(name, FlowWord::EndSub, FlowUnsupported::SubEnd);
             return self.sub_fault(fault, span, out);
         };
@@ -224,7 +227,7 @@ impl Lower {
         if self.o.too_deep {
             let what = FlowUnsupported::TooDeep { most: DEEPEST }.into();
             self.fault(
-                Fault::NotSupported { code: format!("O{label} {}", kind.word()).into(), what },
+                Fault::NotSupported { code: format!("{} {}", label_text(label), kind.word()).into(), what },
                 block,
                 out,
             );

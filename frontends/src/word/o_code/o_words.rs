@@ -20,7 +20,7 @@ use ncc_ir::unsupported::{FlowUnsupported, ValueUnsupported};
 use super::o_formula::constant;
 use super::o_state::{OpenStructure, Outer, StructureKind, StructurePaths};
 use super::parameters::{Named, asks, numbers};
-use super::statements::{Decision, Setting, spelled};
+use super::statements::{Decision, Setting, label_text, spelled};
 use crate::batch::Batch;
 use crate::word::lower::Lower;
 use crate::word::macros::formula::Index;
@@ -269,7 +269,7 @@ impl Lower {
             _ => None,
         });
         let word = decision.word;
-        let code = |label: &str| -> Text { format!("O{label} {}", spelled(word)).into() };
+        let code = |label: &str| -> Text { format!("{} {}", label_text(label), spelled(word)).into() };
         let label: Text = match &decision.label {
             Index::Number(digits) => match digits.to_whole() {
                 Some(number) => number.to_string().into(),
@@ -333,12 +333,12 @@ impl Lower {
             }
             FlowWord::ElseIf | FlowWord::Else => {
                 let now = (word == FlowWord::ElseIf).then(first);
-                if !self.next_branch(&label, now, span, out) {
+                if !self.next_branch(&label, now, span, out) && !self.o.misspelt {
                     refuse(self, FlowUnsupported::OElse, out);
                 }
             }
             FlowWord::EndIf | FlowWord::EndWhile | FlowWord::EndRepeat => {
-                if !self.end_body(&label, word, out) {
+                if !self.end_body(&label, word, out) && !self.o.misspelt {
                     refuse(self, FlowUnsupported::OEnd, out);
                 }
             }
@@ -353,8 +353,10 @@ impl Lower {
     /// The end of a program: what is still open has no end.
     pub(in crate::word) fn open_bodies(&mut self, out: &mut Batch) {
         for open in std::mem::take(&mut self.o.open) {
-            let code = format!("O{} {}", open.label, open.kind.word()).into();
-            out.report(Fault::NotSupported { code, what: FlowUnsupported::OUnclosed.into() }, open.block);
+            let code = format!("{} {}", label_text(&open.label), open.kind.word()).into();
+            if !self.o.misspelt {
+                out.report(Fault::NotSupported { code, what: FlowUnsupported::OUnclosed.into() }, open.block);
+            }
             self.now.failed = true;
         }
         self.o.labels.clear();

@@ -24,6 +24,14 @@ pub(crate) struct Decision {
     pub(crate) values: Vec<Expr>,
 }
 
+/// A label as a program writes it.
+pub(in crate::word) fn label_text(label: &str) -> String {
+    match label.bytes().all(|byte| byte.is_ascii_digit()) {
+        true => format!("O{label}"),
+        false => format!("O<{label}>"),
+    }
+}
+
 /// The word of a decision.
 pub(in crate::word) fn spelled(word: FlowWord) -> &'static str {
     match word {

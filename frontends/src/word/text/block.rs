@@ -8,7 +8,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Unary};
 use ncc_ir::source::Span;
 use ncc_ir::syntax::{Expected, Found};
-use ncc_ir::unsupported::{CodeUnsupported, TextUnsupported};
+use ncc_ir::unsupported::{CodeUnsupported, FlowUnsupported, TextUnsupported, Unsupported};
 
 use super::device_text;
 use super::token::{FlowWord, Refusal, Signs, Token, Tokens};
@@ -398,6 +398,10 @@ pub(in crate::word) fn parse(
         Ok(()) => sink.finish(),
         Err(error) => {
             let (fault, start, end) = refusal(error, line);
+            if is_misspelt(&fault) {
+                // The label begins no program.
+                sink.block.words.retain(|word| word.letter == signs.number);
+            }
             sink.fault(fault, start, end);
         }
     }
@@ -408,6 +412,15 @@ pub(in crate::word) fn parse(
     block.aside = comments;
     block.span = Span::new(base + from as u32, base + end as u32);
     next
+}
+
+/// Whether a block has a misspelt O word: it may have opened or closed a structure.
+pub(in crate::word) fn is_misspelt(fault: &Fault) -> bool {
+    let what = match fault {
+        Fault::NotSupported { what: Unsupported::Flow(what), .. } => what,
+        _ => return false,
+    };
+    matches!(what, FlowUnsupported::OWord | FlowUnsupported::OWordNear { .. })
 }
 
 fn refusal(error: ParseError<usize, Token, Refusal>, line: &[u8]) -> (Fault, usize, usize) {

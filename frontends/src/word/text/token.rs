@@ -8,6 +8,7 @@ use logos::Logos;
 use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Function};
+use ncc_ir::unsupported::FlowUnsupported;
 
 use super::device_text;
 use crate::common::text::{begins, first_char};
@@ -274,6 +275,9 @@ const O_OPERATORS: &[(&[u8], Token)] = &[
     (b"LE", Token::Compare(Binary::LessOrEqual)),
 ];
 
+/// Letters by which a misspelt word may differ.
+const MISSPELT: usize = 2;
+
 /// The tokens of one block.
 pub(crate) struct Tokens<'t> {
     raw: logos::Lexer<'t, Raw>,
@@ -372,6 +376,29 @@ impl<'t> Tokens<'t> {
         }
     }
 
+    /// Letters after a label that are none of the words that stand there.
+    fn not_a_flow_word(&mut self) -> Option<Refusal> {
+        let start = self.raw.span().start;
+        let rest = &self.raw.source()[start..];
+        let letters = rest.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        let operator = |word: &[u8]| begins(&rest[1..], word).is_some();
+        // An address with a function is no word: `XSIN[30]`.
+        if !self.decides || letters < 2 || O_OPERATORS.iter().any(|(word, _)| operator(word)) {
+            return None;
+        }
+        self.raw.bump(letters - 1);
+        let code = String::from_utf8_lossy(&rest[..letters]);
+        let spelled = code.to_ascii_uppercase();
+        let words = FLOW.iter().map(|(word, _)| String::from_utf8_lossy(word));
+        let near = words.map(|word| (strsim::damerau_levenshtein(&word, &spelled), word));
+        let what = match near.min_by_key(|(off, _)| *off).filter(|(off, _)| *off <= MISSPELT) {
+            Some((_, word)) => FlowUnsupported::OWordNear { nearest: word.to_ascii_lowercase().into() },
+            None => FlowUnsupported::OWord,
+        };
+        let fault = Fault::NotSupported { code: code.as_ref().into(), what: what.into() };
+        Some(Refusal { fault, start, end: start + letters })
+    }
+
     /// The key word of a control with O words that begins with the letter just read. Functions stand where values do.
     fn o_keyword(&mut self) -> Option<Token> {
         let start = self.raw.span().start;
@@ -389,6 +416,7 @@ impl<'t> Tokens<'t> {
                 FLOW.iter().find_map(|(word, token)| Some((begins(rest, word)?, *token)))
         {
             self.raw.bump(len - 1);
+            self.decides = false;
             return Some(token);
         }
         let label = !in_expression && rest[0].eq_ignore_ascii_case(&self.signs.program);
@@ -500,6 +528,14 @@ impl Iterator for Tokens<'_> {
             match raw {
                 Raw::Letter => {
                     let keyword = if self.signs.macros { self.keyword() } else { None };
+                    if self.signs.o_words
+                        && keyword.is_none()
+                        && self.depth == 0
+                        && !self.value_next
+                        && let Some(refusal) = self.not_a_flow_word()
+                    {
+                        return Some(Err(refusal));
+                    }
                     let token = keyword.unwrap_or(Token::Letter(byte.to_ascii_uppercase()));
                     return Some(Ok(self.spanned(token)));
                 }

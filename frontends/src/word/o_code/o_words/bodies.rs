@@ -10,14 +10,14 @@ use ncc_ir::unsupported::FlowUnsupported;
 use crate::batch::Batch;
 use crate::word::lower::Lower;
 use crate::word::o_code::o_state::{OpenStructure, StructureKind};
-use crate::word::o_code::statements::spelled;
+use crate::word::o_code::statements::{label_text, spelled};
 use crate::word::text::token::FlowWord;
 
 impl Lower {
     pub(super) fn open_body(&mut self, label: &str, kind: StructureKind, block: Span, out: &mut Batch) {
         if self.o.labels.iter().any(|other| **other == *label) {
             let fault = Fault::NotSupported {
-                code: format!("O{label} {}", kind.word()).into(),
+                code: format!("{} {}", label_text(label), kind.word()).into(),
                 what: FlowUnsupported::OLabelTwice.into(),
             };
             self.fault(fault, block, out);
@@ -92,7 +92,7 @@ impl Lower {
             _ => Some(FlowUnsupported::BreakNoLoop),
         };
         if let Some(what) = what {
-            let code = format!("O{label} {}", spelled(word)).into();
+            let code = format!("{} {}", label_text(label), spelled(word)).into();
             return self.fault(Fault::NotSupported { code, what: what.into() }, span, out);
         }
         let in_while = matches!(inner, Some(OpenStructure { kind: StructureKind::While(_), .. }));
