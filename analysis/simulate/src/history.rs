@@ -81,9 +81,11 @@ impl Changes {
         let mut hollows = self.hollows.iter().peekable();
         for (first, count) in &self.runs {
             let (first, count) = (*first as usize, usize::from(*count));
-            let own =
-                std::iter::from_fn(|| hollows.next_if(|(cell, _)| (first..first + count).contains(cell)));
-            map.hollows.put_all(first..first + count, own.map(|(cell, own)| (*cell, own)));
+            if !map.hollows.is_empty() || !self.hollows.is_empty() {
+                let own =
+                    std::iter::from_fn(|| hollows.next_if(|(cell, _)| (first..first + count).contains(cell)));
+                map.hollows.put_all(first..first + count, own.map(|(cell, own)| (*cell, own)));
+            }
             map.heights[first..first + count].copy_from_slice(&self.heights[at..at + count]);
             let last = map.last[first..first + count].iter_mut().zip(&self.last[at..at + count]);
             last.for_each(|(own, last)| *own = (before + usize::from(*last) + 1) as u32);
@@ -169,9 +171,9 @@ impl History {
     /// Puts a map into the state of a stride.
     pub(crate) fn show(&mut self, map: &mut HeightMap, stride: usize) {
         let key = stride / KEY;
-        if stride < self.at || key * KEY > self.at {
+        let from_key = stride < self.at || key * KEY > self.at;
+        if from_key {
             self.base.clone_from(&self.keys[key]);
-            map.clone_from(&self.base);
             self.dirty.fill(false);
             self.at = key * KEY;
         } else {
@@ -182,10 +184,14 @@ impl History {
             });
         }
         while self.at < stride {
-            for own in [&mut *map, &mut self.base] {
-                self.strides[self.at].put_into(own, self.at * STRIDE);
+            self.strides[self.at].put_into(&mut self.base, self.at * STRIDE);
+            if !from_key {
+                self.strides[self.at].put_into(map, self.at * STRIDE);
             }
             self.at += 1;
+        }
+        if from_key {
+            map.clone_from(&self.base);
         }
     }
 
