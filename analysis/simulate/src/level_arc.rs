@@ -44,12 +44,13 @@ pub(super) fn level_arc(
             }
             let x = (grid.centre(0, columns.start) - centre[0]) as f32;
             let (floor, cell) = (from[2] as f32, grid.cell as f32);
-            cells.row(row, columns, &Ring { sector: &sector, band, floor, x, y: y as f32, cell });
+            cells.row(row, columns, Ring { sector: &sector, band, floor, x, y: y as f32, cell });
         }
     }
 }
 
 /// A band along a level arc, over cells of a row.
+#[derive(Clone, Copy)]
 struct Ring<'r> {
     sector: &'r Sector,
     band: &'r Band,

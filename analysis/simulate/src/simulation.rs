@@ -407,7 +407,7 @@ struct Cutting<'m> {
 impl Cutting<'_> {
     /// As [`Cells::row`], cell by cell.
     #[cold]
-    fn row_with_hollows(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+    fn row_with_hollows(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
         let start = row * self.map.grid.cells[0];
         for first in columns.clone().step_by(LANES) {
             let new = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
@@ -421,7 +421,7 @@ impl Cutting<'_> {
 
     /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
     #[cold]
-    fn last_row(&mut self, begin: usize, count: usize, surface: &impl Surface) {
+    fn last_row(&mut self, begin: usize, count: usize, surface: impl Surface) {
         let (heights, last) =
             (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
         for (n, (heights, last)) in heights.chunks_mut(LANES).zip(last.chunks_mut(LANES)).enumerate() {
@@ -479,7 +479,7 @@ impl Cells for Cutting<'_> {
     }
 
     #[inline(always)]
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
         if !self.map.hollows.is_empty() {
             self.row_with_hollows(row, columns, surface);
             return;
@@ -530,7 +530,7 @@ impl Cells for Probing<'_> {
 
     fn reaches(&mut self, _rows: &Range<usize>, _columns: &Range<usize>) {}
 
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
         let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
         for first in columns.clone().step_by(LANES) {
             let tools = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();

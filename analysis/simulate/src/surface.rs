@@ -26,11 +26,11 @@ pub(crate) trait Cells {
     fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>);
 
     /// The surface over some cells of a row.
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface);
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface);
 }
 
 /// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
-pub(crate) trait Surface {
+pub(crate) trait Surface: Copy {
     /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
     fn at(&self, i: f32x4) -> f32x4;
 
@@ -65,6 +65,7 @@ impl Sloped {
 }
 
 /// A surface along a line, where a tool of that radius comes.
+#[derive(Clone, Copy)]
 pub(super) struct Within<W> {
     pub(super) way: W,
     pub(super) at: Across,
@@ -88,6 +89,7 @@ impl<W: Surface> Surface for Within<W> {
 }
 
 /// A level bottom on a level way.
+#[derive(Clone, Copy)]
 pub(super) struct Level(pub(super) f32);
 
 impl Surface for Level {
@@ -103,6 +105,7 @@ impl Surface for Level {
 }
 
 /// A level bottom: the lowest end of what touches.
+#[derive(Clone, Copy)]
 pub(super) struct Flat(pub(super) Sloped);
 
 impl Surface for Flat {
@@ -122,6 +125,7 @@ impl Surface for Flat {
 }
 
 /// A ball.
+#[derive(Clone, Copy)]
 pub(super) struct Ball {
     pub(super) own: Sloped,
     pub(super) radius: f32,
@@ -157,6 +161,7 @@ impl Surface for Ball {
 }
 
 /// Round corners on a level way.
+#[derive(Clone, Copy)]
 pub(super) struct LevelRound {
     pub(super) own: Sloped,
     pub(super) round: Round,
@@ -178,6 +183,7 @@ impl Surface for LevelRound {
 }
 
 /// Round corners on a slope.
+#[derive(Clone, Copy)]
 pub(super) struct SlopedRound {
     pub(super) own: Sloped,
     pub(super) round: Round,
@@ -210,6 +216,7 @@ impl Surface for SlopedRound {
 }
 
 /// A cone that is level within.
+#[derive(Clone, Copy)]
 pub(super) struct Cone {
     pub(super) own: Sloped,
     pub(super) slope: f32,
@@ -263,8 +270,11 @@ impl Across {
     /// The least distance of the first so many cells from the line, which goes on at both ends.
     #[inline(always)]
     pub(super) fn nearest(&self, cells: usize) -> f32 {
-        let last = self.d + (cells as f32 - 1.0) * self.dd;
-        if self.d * last <= 0.0 { 0.0 } else { self.d.abs().min(last.abs()) }
+        let last = self.d + (cells as i32 as f32 - 1.0) * self.dd;
+        let (one, other) = (self.d.abs(), last.abs());
+        // Not by `f32::min`, which asks for what is no number.
+        let least = if one < other { one } else { other };
+        if self.d * last <= 0.0 { 0.0 } else { least }
     }
 
     #[inline(always)]

@@ -206,7 +206,7 @@ impl Line {
         let (s, d) = ((first[0] * ux + first[1] * uy) as f32, (first[1] * ux - first[0] * uy) as f32);
         let (ds, dd, length) = (cell * ux as f32, -cell * uy as f32, self.length as f32);
         let across = |row: usize, column: usize| {
-            let (row, column) = (row as f32, column as f32);
+            let (row, column) = (row as i32 as f32, column as i32 as f32);
             Across { s: s - row * dd + column * ds, d: d + row * ds + column * dd, ds, dd, length }
         };
         let outer = (radius * radius) as f32;
@@ -214,7 +214,7 @@ impl Line {
             // Asking of each cell is less work than asking where the cells of each row begin.
             for row in 0..rows.len() {
                 let at = across(row, 0);
-                cells.row(rows.start + row, columns.clone(), &Within { way: way(at), at, outer });
+                cells.row(rows.start + row, columns.clone(), Within { way: way(at), at, outer });
             }
             return;
         }
@@ -233,7 +233,7 @@ impl Line {
                 let of = all.of(lane);
                 if !of.is_empty() {
                     let surface = way(across(row, of.start));
-                    cells.row(rows.start + row, columns.start + of.start..columns.start + of.end, &surface);
+                    cells.row(rows.start + row, columns.start + of.start..columns.start + of.end, surface);
                 }
             }
         }

@@ -84,7 +84,7 @@ impl Cells for Lowest {
         (self.rows, self.columns, self.heights) = (rows, columns, heights);
     }
 
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: &impl Surface) {
+    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
         let start = (row - self.rows.start) * self.columns.len();
         for first in columns.clone().step_by(LANES) {
             let new = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
