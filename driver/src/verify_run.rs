@@ -234,7 +234,7 @@ impl Verifier {
     }
 
     /// What the passes have taken for granted of both controls, and patterns that they have folded:
-    /// their holes are where the source writes them to half a unit of its own last digit.
+    /// their holes are where the source writes them to half its own least increment.
     pub fn take(&mut self, found: &[Diagnostic], job: &Job) {
         debug_assert!(self.holes_ahead.is_none(), "the source is executed after this");
         let mut parameters = false;
@@ -451,7 +451,7 @@ impl Verifier {
         self.stood = true;
     }
 
-    /// Decisions that go one way alone, which has been told where they stand.
+    /// Branches with one covered side, which has been reported where they stand.
     pub fn answered(&mut self, decisions: Vec<Span>) {
         self.answered = decisions;
     }

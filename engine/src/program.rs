@@ -61,7 +61,7 @@ pub(crate) fn open(
     let mut source = Source::of(Cursor::new(text.clone()), name);
     let Some(refusal) = not_milling::refusal(&mut source, milling)? else { return Ok(source) };
     refusal.print(messages).map_err(|e| Problem::file("read", name, &e))?;
-    // It has been told.
+    // It has been reported.
     Err(Problem { exit: Exit::Refused, message: String::new(), help: Vec::new() })
 }
 

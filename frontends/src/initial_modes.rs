@@ -112,7 +112,7 @@ pub(crate) fn return_level(know: &mut Know<ReturnLevel>, dialect: &Dialect, at: 
     report(out, at, ModeName::ReturnLevel, value);
 }
 
-/// The work offset in force.
+/// The active work offset.
 pub(crate) fn work_offset(know: &mut Know<u16>, dialect: &Dialect, at: Span, out: &mut Batch) {
     let Some(offset) = take(know, &mut out.assumed.work_offset, &dialect.power_on.work_offset) else {
         return;
@@ -180,7 +180,7 @@ const fn bit(mode: ModeName) -> ModeSet {
     }
 }
 
-/// What the texts of a program find in force, and hand on to those that they call.
+/// What the texts of a program find active, and hand on to those that they call.
 #[derive(Debug, Default)]
 pub(crate) struct Inherited {
     main: Own,
@@ -189,7 +189,7 @@ pub(crate) struct Inherited {
     in_sub: bool,
 }
 
-/// What one text finds in force, and hands on.
+/// What one text finds active, and hands on.
 #[derive(Debug, Default)]
 struct Own {
     /// Modes that it relies on as it finds them, and where it first does.

@@ -106,7 +106,7 @@ impl Reader {
         Reader { family, corners }
     }
 
-    /// The program of the text is called by another, states nothing of what its caller has in force, and goes back to
+    /// The program of the text is called by another, states nothing of the modes active in its caller, and returns to
     /// it: what the text never says is taken for granted from here on, as of a source.
     pub fn called(&mut self) {
         if let Some(corners) = &mut self.corners {
@@ -200,7 +200,7 @@ impl Reader {
         if settled { out.stmts.len() } else { 0 }
     }
 
-    /// Reads a text that is there, as [`Reader::read`] does, and shows what is read of it behind each piece of so many
+    /// Reads a text that is there, as [`Reader::read`] does, and shows what is read of it after each piece of so many
     /// bytes, with how many statements are [settled](Reader::settled).
     pub fn read_showing(&mut self, text: &[u8], base: u32, out: &mut Batch, shown: Shown) {
         match &mut self.family {

@@ -35,7 +35,7 @@ pub enum Outside {
     Above,
 }
 
-/// A mode that a program leaves in force.
+/// A mode that a program leaves active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LeftOn {
     /// Incremental words.
@@ -92,7 +92,7 @@ pub enum What {
     },
     /// No feed has been said.
     NoFeed,
-    /// The spindle stands.
+    /// The spindle is stopped.
     SpindleStands,
     /// The spindle turns and no speed has been said.
     SpindleWithoutSpeed,
@@ -101,7 +101,7 @@ pub enum What {
         /// The tool that was put in.
         tool: i64,
     },
-    /// Z moves with the length that was in force before the change.
+    /// Z moves with the length that was active before the change.
     OldLength {
         /// The tool that was put in.
         tool: i64,

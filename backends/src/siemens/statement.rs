@@ -99,7 +99,7 @@ impl Writer {
                 }
                 self.words.statement(stmt, sink)
             }
-            // Every call of a cycle says its plane of return.
+            // Every call of a cycle says its return plane.
             Op::SetReturnLevel(_) => Ok(()),
             Op::UseLengthUnits(_) => {
                 self.basic_feed = false;

@@ -34,7 +34,7 @@ pub(super) enum Reason {
     Hidden,
     /// Its extension is none of the source's dialect.
     Extension,
-    /// A folder behind a link: it may lead back to where it stands.
+    /// A folder behind a link: it may lead back to its own folder.
     LinkedFolder,
     /// Neither file nor folder.
     NoFile,

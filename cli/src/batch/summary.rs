@@ -126,7 +126,7 @@ impl Row {
         }
     }
 
-    /// It comes to nothing.
+    /// It gives nothing.
     pub(super) fn fails(&mut self, result: Result, problem: &Problem) {
         self.result = result;
         self.reason = Some(problem.message.clone());

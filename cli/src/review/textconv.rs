@@ -110,7 +110,7 @@ fn listed(
         if written.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     written?;
-    // What cannot be told changes nothing about what was listed.
+    // What cannot be reported changes nothing about what was listed.
     let _ = questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err);
     Ok(!course.refused)
 }

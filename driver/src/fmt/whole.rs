@@ -1,4 +1,4 @@
-//! A whole program laid out, its blocks numbered anew where that is asked for, and executed before and after.
+//! A whole program laid out, its blocks numbered again where that is asked for, and executed before and after.
 //!
 //! Not here: what is said of it, and where it is written.
 

@@ -100,7 +100,7 @@ pub struct Has {
     pub inches: bool,
     /// The first work offset that it names.
     pub work_offset: Option<u16>,
-    /// A word that cancels a shift of the origin.
+    /// A word that cancels a G92 shift.
     pub clears_shift: bool,
     /// Cycles that clear chips with a parameter of the control: pecks, breaks of chips.
     pub chips: bool,
@@ -395,7 +395,7 @@ impl<'r> Run<'r> {
         Ok(())
     }
 
-    /// Each control executes what the program comes to with its own answers. Where they go different ways there is no
+    /// Each control executes the blocks that the program reaches with its own answers. Where they go different ways there is no
     /// statement that all have made, and the program is refused.
     fn each_its_way(&mut self, mut runners: Vec<Runner>) -> Result<(), Diagnostic> {
         while !self.broken_off {

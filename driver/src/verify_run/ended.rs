@@ -44,7 +44,7 @@ pub(super) fn tells(ended: &Result<(), Ended>, run: &Run) -> bool {
     }
 }
 
-/// Whether a difference is told of the source: it leaves open what the target's control does.
+/// Whether a difference is reported of the source: it leaves open what the target's control does.
 pub(super) fn by_target(fault: &Fault) -> bool {
     matches!(
         fault,

@@ -12,7 +12,7 @@
 //! START_CUTTER_RADIUS_COMPENSATION(CANON_SIDE_LEFT | CANON_SIDE_RIGHT, entry)     entry of the table
 //! STOP_CUTTER_RADIUS_COMPENSATION()
 //! START_SPINDLE_CLOCKWISE()  START_SPINDLE_COUNTERCLOCKWISE()  STOP_SPINDLE_TURNING()
-//! MACHINE_FUNCTION("name")                        ours: what no dialect has a word for
+//! MACHINE_FUNCTION("name")                        ours: what no dialect supports
 //! SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP | CANON_EXACT_PATH | CANON_CONTINUOUS [, tolerance])
 //! EXACT_STOP()                                    ours: the move that follows ends in one
 //! SET_SPINDLE_MODE(CANON_TURNS_PER_MINUTE | CANON_SURFACE_SPEED)  LIMIT_SPINDLE_SPEED(s)     ours

@@ -14,7 +14,7 @@ pub(crate) enum Know<T> {
     Taken(T),
     /// Said on some way to here, or by somebody else.
     Lost,
-    /// The program has not said it up to a place that can be come to from elsewhere: the first time here it is as the
+    /// The program has not said it up to a place that is a jump target: the first time here it is as the
     /// program began, and any other time perhaps not.
     Open,
     /// A subprogram has not said it: it is as its caller leaves it.

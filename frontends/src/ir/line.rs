@@ -277,7 +277,7 @@ pub(crate) fn polar(op: Op, l: usize, r: usize) -> Parsed<Op> {
     }
 }
 
-/// Which way round rotary axes go, each at most once.
+/// The direction in which rotary axes turn, each at most once.
 pub(crate) fn rotary_ways(
     first: (Axis, RotaryWay),
     rest: Vec<(Axis, RotaryWay)>,
@@ -310,7 +310,7 @@ pub(crate) fn straight(op: Op, l: usize, r: usize) -> Parsed<Op> {
     }
 }
 
-/// The number of a point of the machine.
+/// The number of a reference point.
 pub(crate) fn point_number(n: u32, least: u8, most: u8, l: usize, r: usize) -> Parsed<u8> {
     match u8::try_from(n) {
         Ok(n) if (least..=most).contains(&n) => Ok(n),

@@ -144,7 +144,7 @@ impl Lower {
                 }
                 Meaning::FloodOn => Op::FloodOn,
                 Meaning::MistOn => Op::MistOn,
-                // By the radius of the edge in force.
+                // By the radius of the active edge.
                 Meaning::StartCutterRadiusCompensation(side) => {
                     Op::StartCutterRadiusCompensation { side, radius: CutterRadius::InForce }
                 }
@@ -306,7 +306,7 @@ impl Lower {
         }
         let [within, rapids] = lengths;
         if mode == PathMode::Distance && within.is_none() {
-            // One that was said before stays in force; what that is, is not followed.
+            // One that was said before stays active; what that is, is not followed.
             let what = CodeUnsupported::RoundingDistance;
             return self.not_supported(code.name, what, code.span, out);
         }

@@ -1,7 +1,7 @@
 //! Spindles and tools that are named: the first spindle by its number, the master spindle, tools by name;
 //! and words of the dictionary with arguments of their own.
 //!
-//! Refused by name: other spindles than the first, and tolerances of the path in the coding of older
+//! Refused: other spindles than the first, and tolerances of the path in the coding of older
 //! controls.
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Role};

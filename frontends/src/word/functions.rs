@@ -73,7 +73,7 @@ impl Lower {
             }
             self.feed_word(motion, words, src, out);
         }
-        // A plane belongs to the cycle in force: that ends first, so that either can stand in a block of its own.
+        // A plane belongs to the active cycle: that ends first, so that either can stand in a block of its own.
         let plane = |c: &Code| matches!(c.meaning, Meaning::SelectPlane(_));
         if matches!(self.state.cycle, CycleState::Active(_))
             && settings.iter().any(plane)
@@ -139,7 +139,7 @@ impl Lower {
         }
         self.now.skip = if block.tail.is_some() { None } else { level };
         self.corrector(words, src, out);
-        // The length is in force by now whose radius may be meant.
+        // The length is active by now whose radius may be meant.
         self.compensation(codes, words, src, out);
         let others = codes.iter().any(|code| takes_axes(code.meaning));
         let moves = motion.iter().any(|code| {
@@ -491,7 +491,7 @@ impl Lower {
         self.push(code.span, op, out);
     }
 
-    /// A word that takes up a length entry by itself.
+    /// A word that applies a length entry by itself.
     fn corrector(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         let Some(word) = words.take(self.roles.corrector) else {
             return;
@@ -526,7 +526,7 @@ impl Lower {
         }
     }
 
-    /// Takes up a length by its entry, with the next Z.
+    /// Applies a length by its entry, with the next Z.
     pub(super) fn use_entry(&mut self, entry: Expr, span: Span, words: &Words, out: &mut Batch) {
         self.state.length_open(true);
         let with_z = words.get(b'Z').is_some();

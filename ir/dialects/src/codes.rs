@@ -30,7 +30,7 @@ pub struct CodeRow {
     /// the one that the row means. Its letter is the first of `words`.
     #[serde(default)]
     pub count: Option<u16>,
-    /// Of a function of the machine, whether it comes behind the move of its block; else a block with a move is
+    /// Of a function of the machine, whether it comes after the move of its block; else a block with a move is
     /// refused.
     #[serde(default)]
     pub after_move: bool,
@@ -115,7 +115,7 @@ pub struct CodeRow {
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 

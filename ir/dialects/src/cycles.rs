@@ -26,7 +26,7 @@ pub struct CycleRules {
     /// Whether the initial level of a hole is where the tool stands before its block; else where it stood before the
     /// first hole of the series.
     pub level_of_block: bool,
-    /// Whether every move that is no cycle's, and the code that ends a cycle, make the initial level the level of return
+    /// Whether every move that is no cycle's, and the code that ends a cycle, make the initial level the return level
     /// again.
     pub level_lost: bool,
     /// Whether a cycle works along the normal of any plane, with that axis's letter for the depth.
@@ -35,7 +35,7 @@ pub struct CycleRules {
     pub no_rotary: bool,
     /// Whether no motion is active after the code that ends a cycle: axis words alone are an error.
     pub ends_motion: bool,
-    /// Whether a cycle that a subprogram calls up ends with it: it cannot be left active to the caller.
+    /// Whether a cycle that a subprogram activates ends with it: it cannot be left active to the caller.
     pub ends_with_call: bool,
     /// Letter of the number of repetitions in a cycle's block: 0 stores the data and makes no hole.
     pub repeat: Option<char>,
@@ -50,7 +50,7 @@ pub struct CycleRules {
     pub planes_alarm: Option<u32>,
     /// Whether the rows are confirmed for incremental mode.
     pub incremental: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -119,7 +119,7 @@ pub struct CycleRow {
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 

@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
-/// Repetition of blocks by a block of its own, whose words name the first block and the last one and say
-/// how often: `H90 E240 L25`. Whether the count includes the first time is asked of the option
+/// Repetition of blocks by a block of its own, whose words name the first block, the last one and the
+/// repeat count: `H90 E240 L25`. Whether the count includes the first time is asked of the option
 /// `repeat_count`: `again`, or `total`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -14,7 +14,7 @@ pub struct RepeatRules {
     pub last: Option<char>,
     /// Letter of the count.
     pub times: Option<char>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -41,7 +41,7 @@ pub struct PolarRules {
     pub radius: Option<char>,
     /// Letter of the angle, counter-clockwise from the first axis of the plane.
     pub angle: Option<char>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 

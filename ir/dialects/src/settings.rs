@@ -21,7 +21,7 @@ use crate::repeats::REPEAT_COUNT;
 use crate::schema::{Dialect, UNKNOWN};
 use crate::stored::SystemRow;
 
-/// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
+/// Option of a dictionary: the approach to the holes of a cycle. Its value `retract` is
 /// [`Approach::RetractFirst`], any other one the dictionary's own way.
 pub const CYCLE_APPROACH: &str = "cycle_approach";
 
@@ -230,7 +230,7 @@ impl Settings {
         self.derive();
     }
 
-    /// Finds the dictionary anew as the options make it.
+    /// Finds the dictionary again as the options make it.
     fn derive(&mut self) {
         self.dialect = derive::chosen(self.plain, |option| self.get(option).to_owned());
         if self.get(DWELL_UNIT) == "milliseconds" && self.is_chosen(DWELL_UNIT) {
@@ -331,7 +331,7 @@ impl Settings {
         }
     }
 
-    /// The way of the tool to the holes of a cycle.
+    /// The approach to the holes of a cycle.
     pub fn approach(&self) -> Approach {
         match self.get(CYCLE_APPROACH) {
             "retract" => Approach::RetractFirst,

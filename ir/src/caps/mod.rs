@@ -56,7 +56,7 @@ pub struct Caps {
     pub compensation: CompensationCaps,
     /// Zeros and frames.
     pub frames: FrameCaps,
-    /// Places of the machine.
+    /// Machine coordinates.
     pub machine: MachineCaps,
     /// Tools, and how it changes them.
     pub tools: ToolCaps,

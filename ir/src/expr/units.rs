@@ -1,6 +1,6 @@
 //! The units of length that a program's text says, or that were taken for granted where it begins.
 //!
-//! Not here: which of them is in force where: that is found on the way through the program.
+//! Not here: which of them is active where: that is found on the way through the program.
 
 use crate::canon::Units;
 use crate::program::{Op, Program, Stmt};

@@ -13,7 +13,7 @@ use crate::program::cycle::{Along, First, Pattern, Row};
 
 /// What must be known to say where holes are.
 pub trait Here {
-    /// What is told if it is not.
+    /// What is reported if it is not.
     type Unknown;
 
     /// Where the tool stands in the plane: first axis, second axis.
@@ -40,7 +40,7 @@ pub trait Here {
     /// It is not known.
     fn value(&self, value: &Expr) -> Result<Nanos, Self::Unknown>;
 
-    /// What is told of a pattern that has no such place.
+    /// What is reported of a pattern that has no such place.
     fn out_of_range(&self) -> Self::Unknown;
 }
 

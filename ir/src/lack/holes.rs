@@ -6,11 +6,11 @@ reasons! {
     /// Canned cycles and holes that a target lacks.
     #[derive(Clone, Debug, PartialEq, Eq)]
     pub enum HolesLack {
-        /// A cycle called in a block that can be skipped.
+        /// A cycle called in a block with block skip.
         CycleInSkippedBlock,
         /// A skippable cycle after one without a hole.
         SkippedAfterCycleWithoutHole,
-        /// A cycle whose call can be skipped and its holes cannot.
+        /// A cycle whose call is under block skip and its holes cannot.
         SkippedCallOnly,
         /// A cycle that is not known.
         CycleUnknown,

@@ -1,6 +1,6 @@
 //! Canned cycles in neutral geometry.
 //!
-//! A cycle is called up by a statement, then made at each following hole position until it is
+//! A cycle is activated by a statement, then made at each following hole position until it is
 //! ended. `passes::expand_cycles` is the definition of its moves.
 
 use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn, Units};
@@ -34,7 +34,7 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// Whether its holes are made at the feed that the program has in force.
+    /// Whether its holes are made at the feed that the program has active.
     pub fn relies_on_feed(&self) -> bool {
         let stated = matches!(&self.kind, CycleKind::Tap(tap) if matches!(tap.pitch, Pitch::Stated(_)));
         self.feed.is_none() && !stated
@@ -98,7 +98,7 @@ pub enum CycleKind {
     Bore {
         /// Seconds at the bottom, if any.
         dwell: Option<Expr>,
-        /// Feed on the way out, where it is another. Which feed is in force after the cycle is then
+        /// Feed on the way out, where it is another. Which feed is active after the cycle is then
         /// not known.
         feed_out: Option<Expr>,
         /// Whether the feed goes on to where the tool is left; else from the retract plane it is rapid.
@@ -106,7 +106,7 @@ pub enum CycleKind {
     },
     /// Cut a thread with a tap: in at the pitch, dwell, out with the spindle turned round.
     ///
-    /// Without a chuck the control turns the spindle itself: it stands on the way to the hole and out
+    /// Without a chuck the control turns the spindle itself: it is stopped on the way to the hole and out
     /// of it, whatever the program has said before.
     Tap(Box<Tap>),
     /// Feed to the bottom, dwell, stop the spindle in an orientation, shift the tool off the wall, rapid
@@ -116,7 +116,7 @@ pub enum CycleKind {
     BoreStop(BoreStop),
 }
 
-/// Depth of the peck behind one of a depth, where each is less than the one before by `less`, and none less than
+/// Depth of the peck after one of a depth, where each is less than the one before by `less`, and none less than
 /// `peck`.
 pub fn next_peck(before: Nanos, peck: Nanos, less: Option<Nanos>) -> Nanos {
     less.map_or(peck, |less| before.saturating_sub(less).max(peck))
@@ -130,7 +130,7 @@ pub struct Tap {
     /// The thread's pitch.
     pub pitch: Pitch,
     /// Whether a compensating chuck makes good what feed and spindle are apart, and the spindle turns
-    /// already; else the axis goes in step with it.
+    /// already; else the axis goes synchronised with it.
     pub chuck: bool,
     /// Seconds at the bottom, if any.
     pub dwell: Option<Expr>,
@@ -195,7 +195,7 @@ pub enum Clearance {
 }
 
 /// A clearance that grows with the hole: a fiftieth of its depth, but no less than 0.6 mm and no more than 7 mm. The
-/// depth is in the unit in force.
+/// depth is in the active unit.
 pub fn clearance_by_depth(hole: &Expr, units: Units) -> Expr {
     let length = |tenths: i64| {
         let mm = Num { mantissa: tenths, scale: 1, unit: Unit::One, point: true }.trimmed();
@@ -220,7 +220,7 @@ pub enum Approach {
     /// To the retract plane first, from below and from above, then in the plane.
     RetractFirst,
     /// As [`Approach::RaiseFirst`] to the first of a series of holes; from a hole that was left no higher
-    /// than the next one's retract plane, straight to the level of return above that one (LinuxCNC).
+    /// than the next one's retract plane, straight to the return level above that one (LinuxCNC).
     ClearFirst,
 }
 
@@ -231,7 +231,7 @@ pub enum Leg {
     Level,
     /// In the plane, at the level where the tool stands.
     Aside,
-    /// Straight to the level of return above the hole.
+    /// Straight to the return level above the hole.
     Slant,
 }
 
@@ -360,7 +360,7 @@ impl CycleKind {
     }
 }
 
-/// A pattern of hole positions, made with the cycle in force.
+/// A pattern of hole positions, made with the active cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
     /// Holes on a circle, counter-clockwise for a positive step.

@@ -43,7 +43,7 @@ pub struct SetPole {
     pub at: PoleWords,
 }
 
-/// `POLAR`: a move to a point of the plane by radius and angle about the pole in force, or along a line by
+/// `POLAR`: a move to a point of the plane by radius and angle about the active pole, or along a line by
 /// its angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polar {

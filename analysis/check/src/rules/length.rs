@@ -1,4 +1,4 @@
-//! NC0806: Z moves after a tool change before the length of the tool is in force.
+//! NC0806: Z moves after a tool change before the length of the tool is active.
 
 use ncc_exec::{Event, Exec};
 use ncc_ir::source::Span;

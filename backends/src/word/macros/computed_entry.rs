@@ -1,4 +1,4 @@
-//! Places of the control's tables by a computed number: `#[5201 + #1 * 20]`.
+//! Entries of the control's tables by a computed number: `#[5201 + #1 * 20]`.
 //!
 //! Which numbers there can be is shown where the program is read, and again where the output is read back.
 

@@ -37,10 +37,10 @@ const AHEAD: usize = 4;
 /// Levels of block skip of which every setting is tried; of more, each alone, pairs, and all.
 const ALL_SETTINGS: u32 = 6;
 
-/// What a comparison has come to.
+/// Verdict of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The same, to half a unit of the coarser side's last digit.
+    /// The same, to half the coarser side's least increment.
     Equal,
     /// The same within the tolerance that was asked for.
     WithinTolerance,
@@ -71,7 +71,7 @@ pub struct Found {
     pub inches: bool,
     /// The largest deviation.
     pub deviation: Option<Deviation>,
-    /// Whether something is further apart than half a unit of the output's own last digit.
+    /// Whether something is further apart than half the output's own least increment.
     pub coarse: bool,
     /// The first difference, and the switches of the source's control under which it shows.
     pub first: Option<(Difference, u16)>,
@@ -206,7 +206,7 @@ fn same_control(sides: &[Side; 2]) -> bool {
 
 /// Facts that hold of the output's control although the output does not say them: what the source
 /// relies on without saying it, where a translation into the output's dialect would not say it either,
-/// or where both are for one control; and what a control has no word for. In the output's numbers.
+/// or where both are for one control; and what a control lacks. In the output's numbers.
 fn shared(job: &Job, source: &Course, one_control: bool) -> Modes {
     let facts = job.machines.maps(job.to.dialect).modes(&source.assumed);
     if one_control {
@@ -312,7 +312,7 @@ struct Done {
 }
 
 impl Done {
-    /// Of comparisons that have come to the end.
+    /// Of comparisons that have reached the end.
     fn of(comparisons: &[Comparison]) -> Done {
         let deviations = comparisons.iter().filter_map(Comparison::deviation);
         Done {

@@ -1,5 +1,5 @@
 //! Values for what a program reads and has not set: the same in both programs, by the variables' names.
-//! They are made of the numbers of the program itself, so that its decisions go both ways. A local variable may have none.
+//! They are made of the numbers of the program itself, so that both sides of its branches run. A local variable may have none.
 
 use ncc_ir::computed::free_variables::{free_variables, literals};
 use ncc_ir::expr::Var;
@@ -103,7 +103,7 @@ impl<'g> Given<'g> {
 
 impl Given<'_> {
     /// The value of one of the output's variables: that of the source's. What the source does not have, or leaves to
-    /// be set first, holds something there, where a control has no variables without a value.
+    /// be set first, holds something there, where a control has no empty variables.
     pub fn value_there(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
         let source = self.renamed.source(var).unwrap_or(var);
         let own = self.value(source, seed, set);

@@ -1,11 +1,11 @@
 //! Tokens of a block: a logos lexer over the bytes of one line, and the little that depends on
 //! where a token stands.
 //!
-//! **How words are told apart.** Only the bytes decide, never what a name means:
+//! **How words are distinguished.** Only the bytes decide, never what a name means:
 //! - two letters or underscores begin a *name*, which takes all letters, digits and underscores
 //!   that follow: `CYCLE81`, `CR`, `N_A`, `GOTOF`. Some names are key words;
 //! - any other letter is an *address letter*: `N10G1X10Y20F100` is five words, `L010`, `R1`, `X1`
-//!   are a letter and a number. A sign `=` behind the number makes the number the address's
+//!   are a letter and a number. A sign `=` after the number makes the number the address's
 //!   extension (`X1=10`, `S2=500`): that is the grammar's business;
 //! - `N` before a number is a block number (or the target of a jump);
 //! - a number takes `EX` and an exponent: `1EX5`; `E` alone is an address;
@@ -208,7 +208,7 @@ impl<'t> Tokens<'t> {
         self.raw.remainder().iter().take_while(|b| matches!(b, b' ' | b'\t')).count()
     }
 
-    /// The path behind `PCALL`: up to a blank, its arguments or the comment, or in quotes.
+    /// The path after `PCALL`: up to a blank, its arguments or the comment, or in quotes.
     fn path(&mut self) -> Span {
         let blanks = self.blanks();
         let rest = &self.raw.remainder()[blanks..];

@@ -23,7 +23,7 @@ use crate::word::text::block::Block;
 use crate::word::word_state::CycleState;
 
 impl Lower {
-    /// What setting a variable of the control's own does; nothing is refused by name.
+    /// What setting a variable of the control's own does; nothing is refused.
     pub(in crate::word) fn control_set(
         &mut self,
         to: &System,
@@ -87,7 +87,7 @@ impl Lower {
         Some((row, number - row.number))
     }
 
-    /// What a variable of the control's own is worth, by its name; what is not known is refused by name.
+    /// What a variable of the control's own is worth, by its name; what is not known is refused.
     pub(in crate::word) fn control_value(&mut self, name: &str, at: Span, out: &mut Batch) -> Option<Expr> {
         let found = self.row_of(name);
         if let Some((row, place)) = found
@@ -131,7 +131,7 @@ impl Lower {
         vec![Op::SetData(Box::new(data))]
     }
 
-    /// No data goes in while a cycle is in force.
+    /// No data goes in while a cycle is active.
     fn check_no_cycle(&mut self, at: Span, out: &mut Batch) {
         if let CycleState::Active(_) = self.state.cycle {
             let what = TableUnsupported::InCycle.into();

@@ -22,7 +22,7 @@ pub(super) fn node(node: Node) -> Expr {
 }
 
 impl Formula {
-    /// A function of values; `None` is one that is refused by name, or nested too deep.
+    /// A function of values; `None` is one that is refused, or nested too deep.
     pub(crate) fn call_function(function: Option<Function>, arguments: Vec<Formula>) -> Option<Formula> {
         Formula::call(function, arguments)
     }

@@ -1,4 +1,4 @@
-//! Settings of parameters and decisions of O words, as the grammar makes them.
+//! Settings of parameters and branches of O words, as the grammar makes them.
 
 use ncc_ir::expr::Expr;
 use ncc_ir::source::Span;
@@ -20,11 +20,11 @@ pub(crate) struct Setting {
 pub(crate) struct Decision {
     pub(crate) label: Index,
     pub(crate) word: FlowWord,
-    /// What stands in brackets behind it.
+    /// What stands in brackets after it.
     pub(crate) values: Vec<Expr>,
 }
 
-/// The word of a decision.
+/// The word of a branch.
 pub(in crate::word) fn spelled(word: FlowWord) -> &'static str {
     match word {
         FlowWord::Sub => "sub",

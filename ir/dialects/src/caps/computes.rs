@@ -86,7 +86,7 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
     }))
 }
 
-/// Values of the control's own that a program of the dialect can ask for. Again those of them that are places of tables,
+/// Values of the control's own that a program of the dialect can ask for. Again those of them that are table entries,
 /// each with the number by which a program has it: that of its parameter, or that of the entry within a name.
 fn systems(dialect: &Dialect) -> (Vec<System>, Vec<(System, i64)>) {
     let (mut all, mut entries) = (Vec::new(), Vec::new());

@@ -17,7 +17,7 @@ impl Exec {
         self.last = self.machine();
     }
 
-    /// Has a tool in the spindle, and its T code in force, before the program begins (a stated start).
+    /// Has a tool in the spindle, and its T code active, before the program begins (a stated start).
     pub fn hold_tool(&mut self, tool: u32) {
         let tool = i64::from(tool);
         (self.state.tool, self.selected, self.changed_to) = (tool, tool, tool);

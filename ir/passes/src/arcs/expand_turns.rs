@@ -116,7 +116,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     let mut arcs = vec![turn; turns as usize];
     if arc.to.get(normal).is_some() {
         if walk.waiting {
-            // The length is taken up on the way, by so much more or less of it.
+            // The length takes effect on the way, by so much more or less of it.
             return Err(Fault::lacks(ArcsLack::TurnsWithLength));
         }
         let levels = levels((arc, turns), walk, [first, second, normal])?;

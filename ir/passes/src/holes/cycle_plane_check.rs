@@ -47,7 +47,7 @@ fn drop_plane_checks(body: &mut Vec<Stmt>, alarm: i64, decimals: u8) {
     }
 }
 
-/// Whether a statement is the check of the cycle that is called up behind it in its block.
+/// Whether a statement is the check of the cycle that is activated after it in its block.
 fn is_made_by(check: &Stmt, rest: &[Stmt], alarm: i64, decimals: u8) -> bool {
     let Op::Control(control) = &check.op else { return false };
     let Control::If { condition, then, otherwise } = &**control else { return false };
@@ -63,7 +63,7 @@ fn is_made_by(check: &Stmt, rest: &[Stmt], alarm: i64, decimals: u8) -> bool {
         && asks(cycle, condition, decimals)
 }
 
-/// Whether a condition is that of a cycle's planes: the plane of return below the reference plane or this below the
+/// Whether a condition is that of a cycle's planes: the return plane below the reference plane or this below the
 /// depth; of pecks besides the first one below the depth, or none.
 fn asks(cycle: &Cycle, condition: &Expr, decimals: u8) -> bool {
     let Some(back) = &cycle.return_plane else { return false };

@@ -43,7 +43,7 @@ fn join_feed(body: &mut Vec<Stmt>) {
     });
 }
 
-/// Whether the first statement is a feed that the cycle called up next can say.
+/// Whether the first statement is a feed that the cycle activated next can say.
 fn is_taken(stmts: &[Stmt]) -> bool {
     let Some((first, rest)) = stmts.split_first() else { return false };
     let Op::SetFeedRate(_) = &first.op else { return false };

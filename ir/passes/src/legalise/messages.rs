@@ -18,8 +18,8 @@ pub(crate) const OUTPUT: Pass =
 pub(crate) const VALUES: Pass =
     Pass::named("leave-out-values", "leaves out of messages the values that the target cannot show", None);
 
-/// A message that is a comment from here on, by what stands behind it: where the program stops before another one takes its
-/// place, the operator is told something to do.
+/// A message that is a comment from here on, by what stands after it: where the program stops before another one takes its
+/// place, the message asks the operator for an action.
 fn lost(behind: &[Stmt]) -> Fault {
     if stops_first(behind) == Some(true) { Fault::MessageDropped } else { Fault::MessageAsComment }
 }

@@ -1,7 +1,7 @@
-//! Subprograms, brought within a target's capabilities: as they are, with what their callers have in force, or written
-//! out where they are called.
+//! Subprograms, brought within a target's capabilities: as they are, with the modes active in their callers, or inlined.
 //!
-//! What can stay a subprogram does: those alone are written out that belong to a cycle of a caller which the target
+//!
+//! Keeps subprograms where it can. Only those are inlined that belong to a cycle of a caller which the target
 //! says in another way, or that cannot be said by themselves.
 
 use crate::arcs::arc_form::ArcFormState;
@@ -95,7 +95,7 @@ impl Legaliser {
         self.run_whole(rest, ways[first], diags);
     }
 
-    /// Subprograms get what their callers have in force, and those alone are written out that take a cycle from
+    /// Subprograms get the modes active in their callers, and and only those are inlined that take a cycle from
     /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
         let (mut given, mut reported) = (rest.clone(), Vec::new());
@@ -169,7 +169,7 @@ impl Legaliser {
         }
     }
 
-    /// Refuses subprograms that leave a cycle in force to their callers, where the target's cannot.
+    /// Refuses subprograms that leave an active cycle to their callers, where the target's cannot.
     pub(super) fn refuse_cycles_left(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
         if !self.shared.target.caps.holes.end_with_call {
             return;
@@ -211,8 +211,8 @@ impl Legaliser {
         self.shared.states.state_mut::<FeedTimeState>().enter();
     }
 
-    /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
-    /// is known only where they are written out.
+    /// Whether blocks that are executed again may belong to a cycle that is expanded, or lack what
+    /// is known only where they are inlined.
     fn repeats_in_the_way(&self, program: &Program) -> bool {
         if self.shared.lacks == 0
             || !self.shared.target.caps.flow.repeat_blocks

@@ -1,6 +1,6 @@
 //! What a target does at once where other controls wait, and what it takes away where they keep it: a length
 //! that counts as soon as it is read, so that the tool stands at another Z; a motion that is over with the
-//! cycle behind it. And what every control leaves open: a level from where the tool stood before the first Z,
+//! cycle after it. And what every control leaves open: a level from where the tool stood before the first Z,
 //! by which length it is measured.
 //!
 //! It changes nothing. What depends on either is refused where the source says it.
@@ -42,7 +42,7 @@ pub(crate) const PASS: Pass = Pass {
 /// What is remembered from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ImmediateEffectsState {
-    /// Another length is in force, and no absolute Z has been named since.
+    /// Another length is active, and no absolute Z has been named since.
     length: bool,
     /// The target's first blocks say no length, and no absolute Z has been named since.
     start: bool,

@@ -19,7 +19,7 @@ pub(crate) const TEXTS: Pass =
 /// This pass.
 pub(crate) const NUMBERS: Pass = Pass::named("alarm-numbers", "numbers alarms as the target does", None);
 
-/// Most alarms that are told.
+/// Most alarms that are reported.
 const MOST_TOLD: usize = 20;
 
 /// Says the alarms of a program as a control does that has these. `calls` is whether it says calls of a computed

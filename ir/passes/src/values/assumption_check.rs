@@ -2,8 +2,8 @@
 //!
 //! A target that compares to the least bit takes for granted that no two numbers are only nearly equal, and so does one
 //! that finds these equal of a source that does not; one whose
-//! functions round towards zero, that none is below zero; one whose words have fewer digits, that what it rounds comes to
-//! nothing where it adds up. Where an output differs from its source, and not from the
+//! functions round towards zero, that none is below zero; one whose words have fewer digits, that what it rounds gives nothing
+//! where it adds up. Where an output differs from its source, and not from the
 //! source in the other reading, the numbers are not as they were taken for; any other difference is a wrong translation.
 
 use crate::values::variables::{Fineness, as_rounded, expressions};
@@ -22,7 +22,7 @@ pub enum Assumption {
     Apart,
     /// Numbers that are rounded up or down, or divided for a remainder, are not below zero.
     NotNegative,
-    /// Lengths that the target rounds, each by itself, add up to no more than its last digit.
+    /// Lengths that the target rounds, each by itself, add up to no more than its least increment.
     Together,
 }
 

@@ -20,7 +20,7 @@ pub(crate) const PASS: Pass = Pass::parametric(
     },
 );
 
-/// Says the values of a program's messages with so many digits behind the point.
+/// Says the values of a program's messages with so many digits after the point.
 pub fn run(program: &mut Program, digits: u8, diags: &mut Vec<Diagnostic>) {
     let mut first = None;
     for procedure in &mut program.procedures {

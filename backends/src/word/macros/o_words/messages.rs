@@ -73,7 +73,7 @@ impl Writer {
         }
         let text = &alarm.text;
         let signs = [&rules.open[..], &rules.close];
-        // The reader has no values in alarms, whatever stands behind the sign.
+        // The reader has no values in alarms, whatever stands after the sign.
         if text.contains('#') || signs.iter().any(|sign| text.contains(sign)) || !text.chars().all(shows) {
             return Err(cannot(OperatorLack::AlarmCharacters));
         }

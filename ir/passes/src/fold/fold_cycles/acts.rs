@@ -28,7 +28,7 @@ pub(super) struct Acts<'s> {
     pub(super) read: usize,
     /// Where the tool stands after them.
     pub(super) at: Tracker,
-    /// The feed in force after them.
+    /// The active feed after them.
     pub(super) feed: Option<Num>,
     /// Whether a feed has been said.
     pub(super) feed_said: bool,
@@ -76,7 +76,7 @@ impl<'s> Acts<'s> {
         }
     }
 
-    /// Whether a setting is in force already.
+    /// Whether a setting is active already.
     fn changes_nothing(&self, op: &Op) -> bool {
         let modes = &self.at.modes;
         match op {

@@ -338,7 +338,7 @@ struct Pecks {
     less: Option<Nanos>,
 }
 
-/// Pecks of one depth behind the first one, and what remains.
+/// Pecks of one depth after the first one, and what remains.
 fn alike(whole: &[Nanos], rest: Nanos) -> Option<Pecks> {
     let (first, further) = whole.split_first()?;
     let peck = match further {

@@ -24,13 +24,13 @@ pub(super) struct Stretch<'t> {
     /// Nanos of a millimetre in the program's unit.
     of_unit: f64,
     spots: Vec<Spot>,
-    /// Half a unit of the last digit of each hole's words, nanos.
+    /// Half the least increment of each hole's words, nanos.
     half: u64,
     /// Digits after the point to which the holes are written.
     pub(super) digits: u8,
     /// Most digits after the point of a parameter.
     most: u8,
-    /// Whether the cycle can be called up again at another place.
+    /// Whether the cycle can be activated again at another place.
     leads_in: bool,
 }
 
@@ -255,7 +255,7 @@ impl<'t> Stretch<'t> {
         Row { along, pitch: step.pitch.literal(self.unit).into(), count: count_u32(count) }
     }
 
-    /// Whether the target has words for a pattern, and it makes every hole where it is.
+    /// Whether the target supports a pattern, and it makes every hole where it is.
     fn stands(&self, pattern: &Pattern, holes: Range<usize>, walk: &Walk) -> bool {
         let mut there = walk.clone();
         let first = &self.holes[holes.start];

@@ -6,7 +6,7 @@
 //! where the chain is one of translations, mirrors and quarter turns, else rounded to the target's
 //! digits. Positions must be known where axes are mixed. Words in machine coordinates stay.
 //!
-//! Refused by name: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
+//! Refused: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
 //! mirrors or scales, frames but local shifts that may be skipped, and frames under calls, jumps and repetitions.
 
 mod concerns;
@@ -69,9 +69,9 @@ const NOTHING: f64 = 1e-12;
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ExpandFramesState {
-    /// The frames in force, and where the tool stands in the program's own coordinates.
+    /// The active frames, and where the tool stands in the program's own coordinates.
     framed: Option<Box<(Set, Walk, arc_form::ArcFormState)>>,
-    /// Whether a chain may be in force that the target says as it stands.
+    /// Whether a chain may be active that the target says as it stands.
     chained: bool,
 }
 
@@ -81,7 +81,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 }
 
 impl ExpandFramesState {
-    /// Whether a frame is in force.
+    /// Whether a frame is active.
     pub(crate) fn is_busy(&self) -> bool {
         self.framed.is_some()
     }
@@ -142,12 +142,12 @@ pub(crate) fn expand_frames(
     state.framed = goes_on.then(|| Box::new((set, inner, arcs)));
 }
 
-/// What is in force.
+/// What is active.
 #[derive(Clone, Debug, PartialEq)]
 struct Set {
     /// What the program has set.
     slots: Slots,
-    /// What that amounts to, with the shift of the origin.
+    /// What that amounts to, with the G92 shift.
     whole: Chain,
     /// What of it coordinates must be changed by: all of it, or nothing.
     chain: Chain,
@@ -157,7 +157,7 @@ struct Set {
     said_chain: bool,
     /// A plane of which the next move must name both axes, absolutely.
     unplaced: Option<Plane>,
-    /// Whether what is in force depends on a block-skip switch; all of it has been said as it stood.
+    /// Whether what is active depends on a block-skip switch; all of it has been said as it stood.
     lost: bool,
     /// Frames that may be active instead of `slots`: a block-skip switch decides. All are shifts, and are said.
     others: Vec<Slots>,
@@ -185,12 +185,12 @@ struct Frames<'f> {
     /// Where it stands as what is made sees it.
     outer: &'f mut Walk,
     target: &'f Target,
-    /// Whether a chain may be in force that was said as it stood, before this pass had any business.
+    /// Whether a chain may be active that was said as it stood, before this pass had any business.
     chained: bool,
 }
 
 impl Frames<'_> {
-    /// Whether a frame is in force, or what is made stands at a rounded place that a frame has left.
+    /// Whether a frame is active, or what is made stands at a rounded place that a frame has left.
     fn goes_on(&self) -> bool {
         self.set != Set::NONE || (0..3).any(|axis| self.is_rounded(axis))
     }
@@ -215,7 +215,7 @@ impl Frames<'_> {
             _ => false,
         };
         let shift = Op::ClearFrame(FrameSlot::Shift);
-        // Without words for it, a shift that is suspended is over, and set anew where it is taken up again.
+        // Without words for it, a shift that is suspended is over, and set again where it is restored.
         let said = match &stmt.op {
             Op::UseOriginShift(false) if !self.target.caps.frames.suspends_shift => shift.clone(),
             op => op.clone(),
@@ -337,7 +337,7 @@ impl Frames<'_> {
         }
         if self.chained {
             match said {
-                // A chain that begins anew leaves nothing of the one before.
+                // A chain that begins again leaves nothing of the one before.
                 Op::SetFrame(frame) if !frame.added => self.chained = false,
                 Op::ClearFrame(FrameSlot::Chain) => self.chained = false,
                 Op::ClearFrame(_) => return Ok((false, Vec::new())),
@@ -437,7 +437,7 @@ impl Frames<'_> {
         Ok(Some(ops))
     }
 
-    /// The statements that take a shift of the origin back where no word does: the present point gets the
+    /// The statements that take a G92 shift back where no word does: the present point gets the
     /// coordinates that it has without one, and the local shift, which that ends, is said again.
     fn origin_back(&self, slots: &Slots) -> Result<Vec<Op>, Fault> {
         if slots.is_turned() {
@@ -570,7 +570,7 @@ impl Frames<'_> {
         }])
     }
 
-    /// The shift of the origin.
+    /// The G92 shift.
     fn shift(&self) -> [Nanos; AXES] {
         self.set.slots.origin.map(Option::unwrap_or_default)
     }
