@@ -19,7 +19,7 @@ pub struct Origin {
     /// How many lines.
     pub lines: u32,
     /// The places, in the order of the text; the last one is the block that was being written. Empty for
-    /// what the source does not say: frames, a safe start of facts taken for granted.
+    /// what the source does not say: frames, a safe start of facts assumed.
     pub spans: Vec<Span>,
 }
 

@@ -145,7 +145,7 @@ impl Writer {
     }
 
     /// Says that the program is called by another, before any of it is written: what is active is its caller's, and
-    /// of that this is taken for granted. By `name` it is called.
+    /// of that this is assumed. By `name` it is called.
     pub fn stands_alone(&mut self, taken: &Modes, moves_end_cycles: bool, name: &str) {
         match &mut self.kind {
             Kind::Word(writer) => {
@@ -181,7 +181,7 @@ impl Writer {
         }
     }
 
-    /// Writes further statements of the main procedure. `assumed` are the facts taken for granted
+    /// Writes further statements of the main procedure. `assumed` are the facts assumed
     /// so far.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let start = self.begin(out);

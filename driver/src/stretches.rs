@@ -350,7 +350,7 @@ mod tests {
         other != *stmt
     }
 
-    /// One of its shapes that is said in two ways, or with another number, is a change.
+    /// One of its shapes that is stated in two ways, or with another number, is a change.
     #[test]
     fn shapes_that_are_not_said_alike_are_seen() {
         let mut body = read(&format!("{HEAD}{}", computed()));

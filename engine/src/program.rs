@@ -224,7 +224,7 @@ fn side_with(one: &One, files: &Files, called: &Files, messages: &mut Buffer) ->
     Ok(side)
 }
 
-/// How a program is executed and timed, and what that takes for granted of its machine.
+/// How a program is executed and timed, and what that assumes of its machine.
 pub(crate) fn plan<'p>(job: &'p Job, profile: Option<&Profile>) -> (Plan<'p>, Vec<AssumedFact>) {
     let model = Model::default();
     let (machine, assumed) = profile.map(Profile::machine).unwrap_or_default().assumed(model);

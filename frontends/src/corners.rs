@@ -15,7 +15,7 @@ use ncc_ir::program::{Op, PathControl, Stmt};
 pub(crate) struct Corners {
     /// How far from the path, mm.
     within: Num,
-    /// Whether it is active where a program begins, and that has not been said yet.
+    /// Whether it is active where a program begins, and that has not been stated yet.
     at_start: bool,
     /// Whether lengths are in inches.
     inch: bool,
@@ -39,7 +39,7 @@ impl Corners {
         Op::SetMotionControlMode(Box::new(PathControl { within, ..PathControl::plain(PathMode::Tolerance) }))
     }
 
-    /// States it in further statements of the main procedure, from `first` on; `units` are those taken for granted.
+    /// States it in further statements of the main procedure, from `first` on; `units` are those assumed.
     pub(crate) fn state(&mut self, stmts: &mut Vec<Stmt>, first: usize, units: Option<Units>) {
         if self.at_start && units.is_some() {
             self.inch = units == Some(Units::Inch);

@@ -107,7 +107,7 @@ impl Reader {
     }
 
     /// The program of the text is called by another, states nothing of the modes active in its caller, and returns to
-    /// it: what the text never says is taken for granted from here on, as of a source.
+    /// it: what the text never says is assumed from here on, as of a source.
     pub fn called(&mut self) {
         if let Some(corners) = &mut self.corners {
             corners.called();
@@ -128,7 +128,7 @@ impl Reader {
         }
     }
 
-    /// For a text of which modes are known from elsewhere: what it takes for granted of its control besides them is
+    /// For a text of which modes are known from elsewhere: what it assumes of its control besides them is
     /// reported all the same. Of the Sinumerik's language; the writers of the others report it.
     pub fn report_parameters(&mut self) {
         match &mut self.family {

@@ -482,7 +482,7 @@ impl<T> From<Option<T>> for Fact<T> {
 }
 
 /// Modal facts: `None` means not known. One type for what a control has at power-on, what a program
-/// has stated so far, and what a translation took for granted.
+/// has stated so far, and what a translation assumed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Modes {
     /// What bare axis words do.

@@ -161,7 +161,7 @@ pub enum Gravity {
     Verdict(Verdict),
 }
 
-/// A modal fact that was taken for granted.
+/// A modal fact that was assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // The names are those of `Modes`.
 pub enum ModeName {
@@ -287,7 +287,7 @@ faults! {
     PointNotAllowed { word: Box<str> } = 208, Error;
     /// A value outside the range of the word.
     OutOfRange { word: Ranged } = 209, Error;
-    /// Axis words, and no motion code has been said.
+    /// Axis words, and no motion code has been stated.
     NoMotionMode = 210, Error;
     /// An arc without centre or radius.
     ArcWithoutCentre = 211, Error;
@@ -313,7 +313,7 @@ faults! {
     MacroLanguage { what: Box<str> } = 220, Error;
     /// A tool change and no tool was selected.
     NoToolSelected = 221, Error;
-    /// A move at feed and no feed was said.
+    /// A move at feed and no feed was stated.
     NoFeed = 222, Error;
     /// Holes without an active cycle.
     NoCycle = 223, Error;
@@ -375,7 +375,7 @@ faults! {
     /// A fact of the control or the machine that nothing states.
     AssumedFact { fact: ControlFact } = 308, verdict(Verdict::Assumed);
 
-    /// A pattern whose order of holes a control may choose by where the tool stands is made in the
+    /// A pattern whose order of holes a control may choose by where the tool is is made in the
     /// order of its parameters.
     AssumedHoleOrder { pattern: Box<str> } = 309, verdict(Verdict::Assumed);
     /// The length of edge 1 of a tool is the entry of the length table with the tool's number.
@@ -535,7 +535,7 @@ faults! {
     ArcVanishes = 503, Error;
     /// A number outside the target's range.
     TargetRange { word: Box<str> } = 504, Error;
-    /// What the translation would take for granted is denied by the profile of a machine: which fact,
+    /// What the translation would assume is denied by the profile of a machine: which fact,
     /// and whose.
     ProfileDenies { fact: Box<str>, machine: Box<str> } = 505, Error;
     /// A number that the program uses and the map between two machines does not have: the target's

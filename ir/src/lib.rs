@@ -82,7 +82,7 @@
 //! A fact on which a statement depends is a [`Fact`](canon::Fact): `Known` if the procedure has said it on every path to
 //! the statement, `Entry` if it is whatever holds where the procedure begins. `X 5.u` in a subprogram is such a length:
 //! the caller has said `G20` or `G21`. Front-ends never guess. A fact that the main program relies on and never says is
-//! taken for granted from the dictionary, noted in [`Program::assumed`](program::Program::assumed), and told.
+//! assumed from the dictionary, noted in [`Program::assumed`](program::Program::assumed), and reported.
 //!
 //! A pass that needs an `Entry` fact has three ways: it finds the value at all callers, it has a copy of the procedure
 //! made for each value, or it refuses the statement by name.

@@ -1,7 +1,7 @@
 //! Where the tool stands and what is active, as far as the program itself says it.
 //!
 //! An abstract execution in program coordinates: an axis is known or it is not. For passes and
-//! back-ends, which have no world. Nothing is taken for granted beyond the entry facts given.
+//! back-ends, which have no world. Nothing is assumed beyond the entry facts given.
 
 mod frames;
 mod holes;
@@ -56,9 +56,9 @@ pub struct Tracker {
     pub speed: Option<Num>,
     /// The active feed, if it is a number that is known.
     pub feed: Option<Num>,
-    /// Whether any feed may have been said.
+    /// Whether any feed may have been stated.
     pub fed: bool,
-    /// Whether the units may have changed since it was said.
+    /// Whether the units may have changed since it was stated.
     pub stale_feed: bool,
     /// Whether a slot may turn, scale or mirror.
     pub turned: bool,
@@ -90,7 +90,7 @@ pub struct Tracker {
     pub compensated: bool,
     /// Whether points may be those of the tool tip, or of a tilted plane.
     pub tilted: bool,
-    /// Whether offsets of tools along X and Y have been said: a length activated may then put the tool elsewhere in
+    /// Whether offsets of tools along X and Y have been stated: a length activated may then put the tool elsewhere in
     /// the plane too.
     pub aside: bool,
     /// A tool change takes Z to where nothing but the machine knows.

@@ -1,6 +1,6 @@
 //! Which fact of which machine an assumption rests on.
 //!
-//! A translation tells what it took for granted. Each of these assumptions is one fact of one of the
+//! A translation tells what it assumed. Each of these assumptions is one fact of one of the
 //! two machines, with a place in its profile; a profile that states the fact settles it, and one that
 //! states the contrary forbids it. What has no place in a profile stays an assumption. The same
 //! goes for what is refused because a profile does not name it.
@@ -148,7 +148,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
     let has_option = |name: &str| from.option.iter().any(|o| o.name == name);
     let edges = |dialect: &Dialect| dialect.letter_for(Role::ToolEdge).is_some();
     Some(match fault {
-        // Where the motion at power-on is a fact, or nothing is taken for granted of it, it is the one
+        // Where the motion at power-on is a fact, or nothing is assumed of it, it is the one
         // around a cycle that is meant.
         Fault::AssumedMode { fact: ModeName::Motion, .. }
             if from.power_on.motion.as_ref().is_none_or(|row| row.always) =>

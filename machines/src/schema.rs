@@ -250,8 +250,8 @@ macro_rules! names_of_the_dictionary {
 names_of_the_dictionary!(UnitsName, DistanceName, PlaneName, FeedModeName, ReturnLevelName, MotionName);
 
 table! {
-    /// What is active when a program starts. A fact that is stated here is taken for granted and
-    /// no assumption any more.
+    /// What is active when a program starts. A fact that is stated here holds and
+    /// is no assumption.
     PowerOn "[power_on]" {
         /// Unit of length.
         units: UnitsName = Takes::OneOf(&["mm", "inch"]);
@@ -426,7 +426,7 @@ table! {
         code: String = Takes::MCode;
         /// Its function, the same word on every machine: `chip-conveyor-on`.
         function: String = Takes::FunctionName;
-        /// In place of a function: that it has no effect on the cut. It is left out of a translation, and told.
+        /// In place of a function: that it has no effect on the cut. It is left out of a translation, and reported.
         effect: Effect = Takes::OneOf(&["none"]);
         /// Seconds that it takes.
         seconds: f64 = Takes::FromZero;
@@ -455,7 +455,7 @@ table! {
         first_number: u32 = Takes::WholeBetween { least: 0, most: 99_999 };
         /// The step of new block numbers.
         number_step: u32 = Takes::WholeBetween { least: 1, most: 99_999 };
-        /// Digits after the point of lengths in mm: at most those that the control has. What is finer is rounded, and told.
+        /// Digits after the point of lengths in mm: at most those that the control has. What is finer is rounded, and reported.
         decimals: u32 = Takes::Whole;
         /// The same, of lengths in inches.
         decimals_inch: u32 = Takes::Whole;

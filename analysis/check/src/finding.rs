@@ -58,7 +58,7 @@ pub enum LeftOn {
 pub type Setting = LeftOn;
 
 /// The figures of a finding. Lengths are nanos of a millimetre (degrees of a rotary axis) in machine
-/// coordinates unless it is said otherwise, feeds nanos of mm/min, speeds nanos of rev/min.
+/// coordinates unless it is stated otherwise, feeds nanos of mm/min, speeds nanos of rev/min.
 #[derive(Clone, Debug, PartialEq)]
 pub enum What {
     /// An axis goes beyond its travel.
@@ -90,11 +90,11 @@ pub enum What {
         /// The limit.
         limit: Nanos,
     },
-    /// No feed has been said.
+    /// No feed has been stated.
     NoFeed,
     /// The spindle is stopped.
     SpindleStands,
-    /// The spindle turns and no speed has been said.
+    /// The spindle turns and no speed has been stated.
     SpindleWithoutSpeed,
     /// Z moves without the length of the tool; the place of the change is related.
     NoLength {

@@ -85,7 +85,7 @@ impl Record {
         self.flags & INCH != 0
     }
 
-    /// Whether its block measures from where the tool stands.
+    /// Whether its block measures from where the tool is.
     pub fn incremental(&self) -> bool {
         self.flags & INCREMENTAL != 0
     }
@@ -284,7 +284,7 @@ impl Recorder {
     }
 
     /// Records what one statement has made in every world, the plain one first; `plain` is the plain
-    /// world's control after it. `incremental` says whether its words measure from where the tool stands.
+    /// world's control after it. `incremental` says whether its words measure from where the tool is.
     pub fn record(&mut self, plain: &Exec, worlds: [&[Event]; 1 + WORLDS], incremental: bool) {
         self.line = None;
         let terms = (

@@ -1,4 +1,4 @@
-//! What is taken for granted of a machine that does not state it.
+//! What is assumed of a machine that does not state it.
 //!
 //! Each model names what it needs; here is the value that it works with where the machine is silent,
 //! and the list of such values, which the caller tells the user. Nothing is reported here.
@@ -83,7 +83,7 @@ impl Fact {
     }
 }
 
-/// A value that was taken for granted.
+/// A value that was assumed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssumedFact {
     /// What it is.

@@ -1,7 +1,7 @@
 //! Writer of the canonical stream, one call a line, as NIST and the case study print it.
 //!
 //! Every coordinate is absolute; an axis that a statement does not name gets the place where it
-//! stands, or `_` if that is not known, cannot be said exactly, or would apply a length offset
+//! stands, or `_` if that is not known, cannot be stated exactly, or would apply a length offset
 //! that no statement has applied yet. Modes that change no call print nothing. Structure (cycles,
 //! patterns, control, calls) has been expanded by passes before; what still arrives is refused.
 //!

@@ -104,7 +104,7 @@ impl Writer {
         }
     }
 
-    /// The feed mode that the program takes for granted, said before the first feed.
+    /// The feed mode that the program assumes, said before the first feed.
     pub(super) fn feed_mode(&mut self, assumed: &Modes, out: &mut Vec<u8>) {
         let mode = self.at.modes.feed_mode.or(assumed.feed_mode);
         if let Some(mode) = mode

@@ -142,7 +142,7 @@ struct Printer<'p> {
     mist: bool,
     flood: bool,
     offset: u16,
-    /// The feed that was said last.
+    /// The feed that was stated last.
     feed: Option<f64>,
     /// The limit of the spindle that the block says.
     limit: Option<f64>,

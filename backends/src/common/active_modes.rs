@@ -15,7 +15,7 @@ pub(crate) struct ActiveModes {
     /// The limit of the spindle that the program has active.
     pub limit: Option<Num>,
     pub level: Option<ReturnLevel>,
-    /// The feed, if it was said in the units and the feed mode that are active.
+    /// The feed, if it was stated in the units and the feed mode that are active.
     pub feed: Option<Num>,
     /// Whether the distance mode was put in by this writer, so that statements which take what the
     /// source has active cannot be written.

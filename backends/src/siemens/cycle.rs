@@ -1,4 +1,4 @@
-//! Canned cycles: called by name, for the blocks that follow or once where the tool stands.
+//! Canned cycles: called by name, for the blocks that follow or once where the tool is.
 //!
 //! The reference plane is the one that the cycle states. Where it states none it is the retract plane itself,
 //! without a safety distance: the control's checks then see it as the surface, and the moves are the same whatever
@@ -27,8 +27,8 @@ use crate::common::setting::Inserted;
 const PITCH_IN_MM: &str = "1";
 const PITCH_IN_INCHES: &str = "3";
 
-/// How many of a block's statements are one call: a cycle activated with its hole where the tool
-/// stands, and its end if that follows.
+/// How many of a block's statements are one call: a cycle activated with its hole where the tool is,
+/// and its end if that follows.
 pub(super) fn called_here(rest: &[Stmt]) -> usize {
     let [call, hole, further @ ..] = rest else { return 1 };
     let joined = |s: &Stmt| s.joined && s.skip == call.skip;
@@ -106,7 +106,7 @@ impl Writer {
         to.put(role, text)
     }
 
-    /// Calls a cycle up: for the blocks that follow, or once where the tool stands. Then the program
+    /// Calls a cycle up: for the blocks that follow, or once where the tool is. Then the program
     /// may go on with it, or not: it is activated for the next blocks when one needs it.
     pub(super) fn start_cycle(
         &mut self,
@@ -461,14 +461,14 @@ impl Writer {
         }
     }
 
-    /// Whether a clearance is the one that the control takes for the depth of the hole where none is said.
+    /// Whether a clearance is the one that the control takes for the depth of the hole where none is stated.
     fn is_own_clearance(&self, cycle: &Cycle, row: &CallRow) -> bool {
         let CycleKind::DrillPeck { first, clearance: Clearance::Stated(said), .. } = &cycle.kind else {
             return false;
         };
         let reference = match self.above_reference(cycle, row) {
             Some((reference, _)) => reference,
-            // For a first peck of its own another plane is said.
+            // For a first peck of its own another plane is stated.
             None if first.is_some() => return false,
             None => &cycle.retract.value,
         };
@@ -535,7 +535,7 @@ impl Writer {
         cycle.and_then(|c| c.cycle.plane.known()).or(self.words.active.plane)
     }
 
-    /// Words for the position where the tool stands: a cycle is made only after a block with some.
+    /// Words for the position where the tool is: a cycle is made only after a block with some.
     fn here(&self, plane: Plane) -> Result<Point, Fault> {
         let (first, second, _) = plane.axes();
         let unit = match self.words.active.units {

@@ -1,7 +1,7 @@
 //! The back-end of the Sinumerik's own language.
 //!
 //! Blocks of letters and numbers are written as in every other dialect, by a writer of words within; this room
-//! has what is said in another form: cycles and patterns called with arguments, frames, arcs by
+//! has what is stated in another form: cycles and patterns called with arguments, frames, arcs by
 //! name, edges of tools, messages, labels and units. Codes, names and the order of arguments come
 //! from the dictionary. What it lacks is a fault at the statement, never silent.
 //!
@@ -130,7 +130,7 @@ pub struct Writer {
     raw: bool,
     /// Whether a work offset has new values that may be active, and has not been activated since.
     stale: bool,
-    /// Whether inches have been said.
+    /// Whether inches have been stated.
     inches: bool,
     /// Whether the feed counts in the machine's basic system, and which that is.
     basic_feed: bool,
@@ -272,7 +272,7 @@ impl Writer {
         self.words.close_block(stmts, sink);
     }
 
-    /// Writes the first of the statements that are left of a block, and those that are said with it;
+    /// Writes the first of the statements that are left of a block, and those that are stated with it;
     /// gives their number.
     fn one(&mut self, rest: &[Stmt], sink: &mut Sink) -> usize {
         let stmt = &rest[0];

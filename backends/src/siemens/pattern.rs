@@ -1,6 +1,6 @@
 //! Patterns of positions: a call for each kind.
 //!
-//! Where the control chooses the end at which it begins by where the tool stands, a pattern that
+//! Where the control chooses the end at which it begins by where the tool is, a pattern that
 //! does not begin there is reported as an assumption.
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole as Role};
@@ -83,7 +83,7 @@ impl Writer {
         }
     }
 
-    /// Centre or start, absolute; where the tool stands if the pattern does not say it.
+    /// Centre or start, absolute; where the tool is if the pattern does not say it.
     fn corner(
         &mut self,
         words: Option<&[Coord; 2]>,

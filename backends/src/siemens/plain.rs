@@ -1,4 +1,4 @@
-//! Blocks that are nothing but a hole or an arc, written straight from their statements where nothing is to be said besides.
+//! Blocks that are nothing but a hole or an arc, written straight from their statements where nothing is to be stated besides.
 //!
 //! ```text
 //! X10. Y20. under a cycle that the text has activated | G2 X10. Y0. I5. J0.

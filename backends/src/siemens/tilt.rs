@@ -1,6 +1,6 @@
 //! Tilted working planes: one call says the plane, and whether and which way the tool is swivelled to it.
 //!
-//! What retracts to the machine's zero in its block is said by the call, where it turns the tool. No record of
+//! What retracts to the machine's zero in its block is stated by the call, where it turns the tool. No record of
 //! the machine's kinematics is named: the only one, or the first, counts. Where the program does not say the way, the one towards minus is written.
 
 use ncc_dialects::{Meaning, NameMeaning, Quantity};

@@ -1,7 +1,7 @@
 //! Tools and their edges.
 //!
 //! A tool change makes edge 1 active by itself. Where the program has another length active, that
-//! is said before the drilling axis moves; where it says an edge in time, nothing is to be added.
+//! is stated before the drilling axis moves; where it says an edge in time, nothing is to be added.
 
 use ncc_dialects::Role;
 use ncc_ir::canon::Axis;

@@ -2,7 +2,7 @@
 //! that hand values over.
 //!
 //! A variable of whole numbers rounds what it is given, and a truth value is any number but 0: what a program says of
-//! that is said by the type. Subprograms with parameters are made known where they are called (`EXTERN`).
+//! that is stated by the type. Subprograms with parameters are made known where they are called (`EXTERN`).
 //!
 //! Not here: branches and loops (`computing`), and how expressions are spelt (the word writer's).
 

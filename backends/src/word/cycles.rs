@@ -146,7 +146,7 @@ impl Writer {
         self.words.point(to, span, sink)
     }
 
-    /// Words for the position where the tool stands, on a control that needs some for a hole.
+    /// Words for the position where the tool is, on a control that needs some for a hole.
     fn stand_words(&self) -> Result<Point, Fault> {
         let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.words.active.plane);
         let (first, second, _) = plane.unwrap_or(Plane::Xy).axes();
@@ -212,7 +212,7 @@ impl Writer {
         Ok(())
     }
 
-    /// A pitch that is said by the feed per revolution has as many digits as that.
+    /// A pitch that is stated by the feed per revolution has as many digits as that.
     fn check_pitch(&self, cycle: &Cycle) -> Result<(), Fault> {
         let feed = cycle.feed.as_ref().map_or(self.words.active.feed, Expr::literal);
         let by_feed = matches!(cycle.kind, CycleKind::Tap(_))

@@ -44,7 +44,7 @@ struct Options {
     corrector_counts: bool,
     /// A bolt circle's positive step is clockwise.
     circle_clockwise: bool,
-    /// A bolt circle without centre words is about program zero; else about where the tool stands.
+    /// A bolt circle without centre words is about program zero; else about where the tool is.
     circle_about_zero: bool,
     /// A grid's words are the whole extent of a row; else the pitch.
     grid_extent: bool,

@@ -24,7 +24,7 @@ pub struct Reading {
     pub from_option: Vec<(String, String)>,
 }
 
-/// Where a program begins. What is taken for granted without, a verb adds to the help.
+/// Where a program begins. What is assumed without, a verb adds to the help.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct StartPosition {
     /// Where the tool stands before the first block, in program coordinates, mm and degrees:

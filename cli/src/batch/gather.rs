@@ -114,7 +114,7 @@ pub(super) fn gather(named: &[PathBuf], extensions: &BTreeSet<String>, output: O
             found.take(path.clone(), PathBuf::new());
             continue;
         }
-        // The outputs may go beside the sources, if that is said.
+        // The outputs may go beside the sources, if that is stated.
         let output = output.as_ref().filter(|output| identity(path).as_ref() != Some(output));
         found.walk(path, extensions, output);
     }

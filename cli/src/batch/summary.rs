@@ -192,7 +192,7 @@ impl Summary<'_> {
         out.write_all(b"\n")
     }
 
-    /// The table, and what is to be said beside it.
+    /// The table, and what is to be stated beside it.
     pub(super) fn table(&self) -> String {
         let mut text = String::new();
         let cells = |row: &Row| {

@@ -97,7 +97,7 @@ pub(crate) fn run(
         }
     }
     let failed = found.iter().any(|d| matches!(d.fault, Fault::NotTheSame { .. }));
-    // What the interpreter starts with is known: nothing is taken for granted of it.
+    // What the interpreter starts with is known: nothing is assumed of it.
     found.retain(|d| d.fault.gravity() == Gravity::Error || job.refuses(d));
     let mut about = About { job, name: &source.shown, source: &mut source.file };
     let loudness = args.telling.loudness();

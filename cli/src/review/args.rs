@@ -16,11 +16,12 @@ Examples:
   ncc verify --cert part.json --recheck a.cn b.nc     the same, of files that have other names now
 
 Both programs are executed in generated test set-ups. Each has other offsets, lengths and modes at
-power-on, under every setting of the block-skip switches. What SRC relies on and never states is assumed,
-as its dialect or the profile of its machine has it, and reported. What OUT relies on and
-never states is not: unless its dialect or the profile of its machine settles it, the set-ups disagree
-about it, and OUT is not equal. Only what a translation into its dialect would not state either, and
-what neither of two programs for one control states, holds for OUT as for SRC; ncc reports that too.
+power-on, under every setting of the block-skip switches. What SRC relies on and never states is
+assumed, as its dialect or the profile of its machine has it, and reported. What OUT relies on and
+never states is not: unless its dialect or the profile of its machine settles it, the set-ups
+disagree about it, and OUT is not equal. Only what a translation into its dialect would not state
+either, and what neither of two programs for one control states, holds for OUT as for SRC; ncc
+reports that too.
 
 Exit code: 0 equal, or equal within the tolerance, and if a certificate is checked, all of it holds;
 1 different, or the certificate does not hold; 2 wrong usage; 4 a file could not be read or written;

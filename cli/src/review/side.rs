@@ -92,7 +92,7 @@ pub(crate) fn operand<'o>(
 
 /// Opens both sides of a comparison.
 ///
-/// A dialect that nobody names is recognised, and told on `err` where `say` is set. A text in which
+/// A dialect that nobody names is recognised, and reported on `err` where `say` is set. A text in which
 /// too little speaks for any dialect is read as the other side is, if nothing speaks against that.
 ///
 /// # Errors

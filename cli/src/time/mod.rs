@@ -56,7 +56,7 @@ use ncc_driver::translate::translate;
 pub(crate) struct Shop {
     pub(crate) profile: Option<Profile>,
     machine: Machine,
-    /// What the model takes for granted of it.
+    /// What the model assumes of it.
     assumed: Vec<AssumedFact>,
 }
 
@@ -386,7 +386,7 @@ fn tell(
     err.flush()
 }
 
-/// What a program's timing takes for granted.
+/// What a program's timing assumes.
 pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
     let dialect = plan.job.from.dialect;
@@ -593,7 +593,7 @@ fn canonical(
     let mut sink = canon::Canon::new(BufReader::new(again), out);
     let mut course = execute(args, &plan, &known, &mut text, &mut sink, err)?;
     sink.finish().map_err(cannot)?;
-    // What was taken for granted of the source; the canonical text states what it means.
+    // What was assumed of the source; the canonical text states what it means.
     course.diagnostics = outcome.diagnostics;
     Ok(Ok(course))
 }

@@ -126,7 +126,7 @@ impl Bench {
         self.reads_as(said, meant, change, Some)
     }
 
-    /// The same, of a text of which the lines that are read are said in another way, or not at all.
+    /// The same, of a text of which the lines that are read are stated in another way, or not at all.
     pub fn reads_as(
         &self,
         said: &Said,

@@ -27,7 +27,7 @@ pub struct Whole {
     pub unread: (Vec<u32>, u32),
     /// What its execution showed; nothing where no line changes.
     pub compared: Option<Compared>,
-    /// What the execution takes for granted.
+    /// What the execution assumes.
     pub assumed: Vec<Diagnostic>,
 }
 

@@ -318,7 +318,7 @@ impl Listed {
         }
     }
 
-    /// A speed of the spindle; that of a surface is said in ft/min where lengths are inches.
+    /// A speed of the spindle; that of a surface is stated in ft/min where lengths are inches.
     fn speed(&mut self, text: &str) -> Option<()> {
         let said = number(text)?;
         let feet = self.state.spindle_mode == SpindleMode::Surface && self.inch;

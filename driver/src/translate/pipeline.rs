@@ -212,7 +212,7 @@ impl Translation<'_> {
     }
 
     /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one: since `before`,
-    /// and after so many of the part's own diagnostics. Says what stretches compute as it is said beside them.
+    /// and after so many of the part's own diagnostics. Says what stretches compute as it is stated beside them.
     fn leaves(&self, stretches: &[Stretch], part: &mut Part, (before, found): (&Snapshot, usize)) -> bool {
         let Part::Kept(kept) = part else { return false };
         let told = self.diagnostics.iter().skip(before.diagnostics()).chain(kept.found.iter().skip(found));
@@ -440,8 +440,8 @@ impl Translation<'_> {
         }
     }
 
-    /// Brings the part within what the target can say. The source of a piece is executed here, as what the passes take
-    /// for granted holds for it as well.
+    /// Brings the part within what the target can say. The source of a piece is executed here, as what the passes assume
+    /// holds for it as well.
     fn legalise(&mut self, part: &mut Part) -> Result<(), Refused> {
         match part {
             Part::Piece(Piece { stmts, original, touch, executed, lines, target_modes, found, .. }) => {

@@ -1,4 +1,4 @@
-//! A standalone subprogram: it returns to a program that is not there. What it takes for granted is what that
+//! A standalone subprogram: it returns to a program that is not there. What it assumes is what that
 //! one has active, so that the output states none of it, and is read with the same.
 
 use ncc_dialects::Dialect;
@@ -198,7 +198,7 @@ impl Translation<'_> {
     }
 }
 
-/// Whether a variable is said as the spindle's speed.
+/// Whether a variable is stated as the spindle's speed.
 fn is_speed(body: &[Stmt], var: &Var) -> bool {
     body.iter().any(|stmt| match &stmt.op {
         Op::SetSpindleSpeed(Expr::Node(speed)) => matches!(&**speed, Node::Var(own) if own == var),

@@ -19,7 +19,7 @@ pub enum Ended {
     Source(Diagnostic),
     /// The output does something else.
     Target(Diagnostic),
-    /// It does, for what it takes for granted of the source's numbers is not so.
+    /// It does, for what it assumes of the source's numbers is not so.
     NotSo(Diagnostic),
     /// It is long enough.
     Enough(Span),

@@ -113,7 +113,7 @@ impl Run {
     }
 }
 
-/// A reader of the output, which reports what the output takes for granted of the target's control.
+/// A reader of the output, which reports what the output assumes of the target's control.
 pub fn reader_of_output(job: &Job) -> Reader {
     reader_of_text(job.to.clone())
 }
@@ -143,7 +143,7 @@ pub fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
 const CALLERS_FEED: Nanos = 137_000_000_137;
 
 impl Verifier {
-    /// The program is called by another, and states nothing of what was taken for granted: its text is read as the
+    /// The program is called by another, and states nothing of what was assumed: its text is read as the
     /// source was, in the unit of length that its caller has active.
     pub fn read_as_called(&mut self, job: &Job, assumed: &Modes) {
         let mut to = job.to.clone();
@@ -163,7 +163,7 @@ impl Verifier {
         self.runs.iter().any(|run| run.level)
     }
 
-    /// What the reading of the output takes for granted of the target's control: it counts as much as what the source's
+    /// What the reading of the output assumes of the target's control: it counts as much as what the source's
     /// reading does.
     pub fn note_assumed(&mut self) {
         for Diagnostic { fault, .. } in self.batch.diagnostics.drain(..) {
@@ -176,7 +176,7 @@ impl Verifier {
     }
 
     /// What the verification has to say of its own reach, of facts that would make another cut, and of what the output
-    /// takes for granted, if that is not `reported` yet.
+    /// assumes, if that is not `reported` yet.
     pub fn take_notes(&mut self, reported: &[Diagnostic]) -> Vec<Diagnostic> {
         let fed = self.runs.first().and_then(|run| run.source.arc_fed_otherwise(&run.target));
         let mut matters = std::mem::take(&mut self.matters);

@@ -52,7 +52,7 @@ impl Verifier {
         if !level || !are_holes(stmts) {
             return Ok(false);
         }
-        // What the source takes for granted from here on, the target does when its text is read.
+        // What the source assumes from here on, the target does when its text is read.
         if !self.holes_differ && self.runs.iter().all(|run| run.source.has_cycle_like(&run.target)) {
             self.pass_ahead(stmts, false)?;
             return Ok(true);

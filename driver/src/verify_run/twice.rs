@@ -97,7 +97,7 @@ impl Verifier {
         self.matters.append(&mut found);
     }
 
-    /// What a program that begins again takes for granted of its start, which is not active where it begins again.
+    /// What a program that begins again assumes of its start, which is not active where it begins again.
     fn begins_otherwise(&self) -> Option<(ModeName, Span)> {
         let mut found = self.runs.iter().filter_map(|run| run.source.begins_otherwise(&self.assumed));
         found.next()

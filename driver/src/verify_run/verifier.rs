@@ -198,7 +198,7 @@ pub struct Verifier {
     pub(super) last: Span,
     /// Variables that the source reads before it sets them, where both sides compute.
     pub(super) outliving: Vec<Outliving>,
-    /// What the source takes for granted of its start so far.
+    /// What the source assumes of its start so far.
     pub(super) assumed: Modes,
     /// Straight moves one after the other of which fewer are not packed, in a program that is read back whole.
     pub(super) shortest_stretch: usize,

@@ -358,7 +358,7 @@ impl Verifier {
     }
 
     /// Runs both programs from where they begin, with one set of values. A difference that is none where what was
-    /// taken for granted of the source's numbers is read the other way tells that they are not so; another one is the
+    /// assumed of the source's numbers is read the other way tells that they are not so; another one is the
     /// output's.
     fn run_against<'p>(
         &self,

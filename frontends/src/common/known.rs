@@ -10,7 +10,7 @@ pub(crate) enum Know<T> {
     Unsaid,
     /// The program has said it.
     Said(T),
-    /// The program relies on it and never said it: taken for granted.
+    /// The program relies on it and never said it: assumed.
     Taken(T),
     /// Said on some way to here, or by somebody else.
     Lost,
@@ -66,7 +66,7 @@ impl<T> Know<T> {
 impl<T: PartialEq> Know<T> {
     /// What is known after a block that may have been skipped; `before` is what was before it.
     pub(crate) fn join(&mut self, before: Know<T>) {
-        // What was taken for granted in the block holds without it as well.
+        // What was assumed in the block holds without it as well.
         let taken = matches!((&before, &self), (Know::Unsaid, Know::Taken(_)));
         if *self != before && !taken {
             *self = Know::Lost;

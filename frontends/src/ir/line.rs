@@ -24,7 +24,7 @@ pub(crate) enum Line {
     Version(u32),
     /// The program's name.
     Program(ProgramName),
-    /// Facts taken for granted.
+    /// Facts assumed.
     Assumed(Modes),
     /// Opens a procedure.
     Procedure(Procedure),
@@ -302,7 +302,7 @@ pub(crate) fn rotary_ways(
     Ok(Op::TurnRotaryAxes(directions))
 }
 
-/// A move that can be said by its angle.
+/// A move that can be stated by its angle.
 pub(crate) fn straight(op: Op, l: usize, r: usize) -> Parsed<Op> {
     match op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) => Ok(op),

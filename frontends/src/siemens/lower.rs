@@ -45,7 +45,7 @@ use crate::siemens::values::variables::Variables;
 #[derive(Debug)]
 pub(super) struct Lower {
     pub(super) settings: Settings,
-    /// Whether what the program never says is taken for granted and reported.
+    /// Whether what the program never says is assumed and reported.
     pub(super) assume: bool,
     /// What subprograms find active.
     pub(super) inherited: Inherited,
@@ -53,14 +53,14 @@ pub(super) struct Lower {
     pub(super) called: bool,
     /// Whether refused blocks are noted.
     pub(super) watch: bool,
-    /// Whether what is taken for granted of the control is reported: its modes are by `assume` alone.
+    /// Whether what is assumed of the control is reported: its modes are by `assume` alone.
     pub(super) reports: bool,
     pub(super) state: SiemensState,
     pub(super) only_units: OnlyValue<Units>,
     pub(super) only_scaled: OnlyValue<bool>,
     pub(super) only_plane: OnlyValue<Plane>,
     pub(super) repeated_blocks: RepeatedBlocks,
-    /// Where the tool stands, as far as words have said it.
+    /// Tool position, as far as words have said it.
     pub(super) stand: Stand,
     /// What the statements have activated last, as a subprogram's position would find it.
     pub(super) moved: Option<Motion>,
@@ -69,10 +69,10 @@ pub(super) struct Lower {
     /// Whether a cycle was activated where the active motion is not known: it is not known after
     /// it either.
     pub(super) cycled: bool,
-    /// Whether the active cycle must be activated again, because a feed was said since.
+    /// Whether the active cycle must be activated again, because a feed was stated since.
     pub(super) recall: bool,
     /// Whether the active modal tap has activated its own speed and made no hole yet: until it does,
-    /// the control has the speed that was said before.
+    /// the control has the speed that was stated before.
     pub(super) idle_tap: bool,
     /// Whether control has gone elsewhere, or a switch has left in doubt, where a motion at feed was active.
     pub(super) feed_away: bool,
@@ -106,7 +106,7 @@ pub(super) struct Lower {
     pub(super) handed: Handed,
     /// Whether the value of a work offset was set that may be active, and none has been activated since.
     pub(super) stale: bool,
-    /// What a computed number of a table's entry is worth, where a statement is read for each of them.
+    /// Value of a computed number of a table's entry, where a statement is read for each of them.
     pub(super) worth: Option<u32>,
     /// Such statements.
     pub(super) saved: Saved,

@@ -120,7 +120,7 @@ impl Lower {
         self.push(at, Op::Alarm(Box::new(Alarm { number, text })), out);
     }
 
-    /// That an alarm ends the program is taken for granted, by the range of its number.
+    /// That an alarm ends the program is assumed, by the range of its number.
     fn ends_program(&mut self, at: Span, out: &mut Batch) {
         if self.first_time("SETAL") {
             out.report(Fault::AssumedFact { fact: ControlFact::AlarmsEnd }, at);

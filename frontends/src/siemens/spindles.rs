@@ -68,7 +68,7 @@ impl Lower {
         self.push(text, Op::SelectToolByName(name), out);
     }
 
-    /// Which spindle the words without a number mean is taken for granted, and told once.
+    /// Which spindle the words without a number mean is assumed and reported once.
     pub(super) fn master_spindle(&mut self, at: Span, out: &mut Batch) {
         if self.first_time(MASTER) {
             out.report(Fault::AssumedFact { fact: ControlFact::MasterSpindle }, at);

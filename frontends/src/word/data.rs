@@ -120,7 +120,7 @@ impl Lower {
             return self.measured(code, row, number, words, src, out);
         }
         self.check_shut(code, out);
-        // A zero that is stated is what it is, whatever length counts; one from where the tool stands is not.
+        // A zero that is stated is what it is, whatever length counts; one from where the tool is is not.
         if row.kind == DataKind::OffsetHere && words.get(b'Z').is_some() && self.level_open() {
             words.left = 0;
             return self.refuse_level(code.span, out);
@@ -228,7 +228,7 @@ impl Lower {
         number
     }
 
-    /// Where the axes stand becomes a stored position; or the number of the tool in the spindle is said.
+    /// Where the axes stand becomes a stored position; or the number of the tool in the spindle is stated.
     pub(super) fn stored(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         let code_text: Box<str> = code.row.code.as_str().into();
         let data = match code.meaning {

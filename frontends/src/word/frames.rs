@@ -102,7 +102,7 @@ impl Lower {
     }
 
     /// Whether nothing else in the block takes the words of a code: M codes may stand beside it, and a motion
-    /// where that is said. The first other one is refused.
+    /// where that is stated. The first other one is refused.
     pub(super) fn stands_beside(
         &mut self,
         code: &Code,

@@ -170,7 +170,7 @@ impl Lower {
             Meaning::SelectPlane(plane) => self.state.modes.plane = Know::Said(plane),
             Meaning::SetDistanceMode(distance) => self.state.modes.distance = Know::Said(distance),
             Meaning::SetFeedMode(mode) => {
-                // A feed that was said before does not count any more.
+                // A feed that was stated before does not count any more.
                 if self.state.modes.feed_mode.value().is_some_and(|before| before != mode) {
                     self.state.modes.feed = Know::Unsaid;
                 }
@@ -232,7 +232,7 @@ impl Lower {
         }
         if let (Meaning::SelectPlane(plane), CycleState::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
-            // Of a text that was emitted, the plane at the start is what was taken for granted.
+            // Of a text that was emitted, the plane at the start is what was assumed.
             && (self.assume || active.plane.known().is_some())
         {
             let what = MoveUnsupported::PlaneInCycle.into();
@@ -350,7 +350,7 @@ impl Lower {
         }
     }
 
-    /// Between the code for rigid tapping and its cycle no axis moves and no speed is said: a control alarms.
+    /// Between the code for rigid tapping and its cycle no axis moves and no speed is stated: a control alarms.
     fn nothing_before_the_tap(&mut self, codes: &[Code], block: Span, words: &Words, out: &mut Batch) {
         let waits = self.state.rigid.is_some() && self.state.cycle == CycleState::None;
         let settled =

@@ -93,7 +93,7 @@ impl Lower {
     /// What bare axis words do: `None` if that is only known when the program runs.
     ///
     /// # Errors
-    /// The program has not said it, and nothing may be taken for granted.
+    /// The program has not said it, and nothing may be assumed.
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
         if self.state.no_motion {
             out.report(Fault::NoMotionMode, at);

@@ -163,7 +163,7 @@ impl Lower {
         match self.state.centre {
             Know::Said(from) | Know::Taken(from) => Some(from),
             Know::Unsaid => Some(self.centre_at_start(row.value.into(), at, out)),
-            // Open here, but if the whole text says no other, it is what was said on every path to here, or else that at
+            // Open here, but if the whole text says no other, it is what was stated on every path to here, or else that at
             // power-on.
             Know::Lost | Know::Open | Know::Callers => {
                 let from = match self.state.centre_before {

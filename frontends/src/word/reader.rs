@@ -74,7 +74,7 @@ impl Reader {
         self.lower.foresee_jumps(lines);
     }
 
-    /// What the text never says is taken for granted from here on.
+    /// What the text never says is assumed from here on.
     pub(crate) fn assume(&mut self) {
         self.lower.assume = true;
         self.lower.refresh();

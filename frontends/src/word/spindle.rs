@@ -87,7 +87,7 @@ impl Lower {
         }
     }
 
-    /// The words of a stop of the spindle: the angle, if one is said.
+    /// The words of a stop of the spindle: the angle, if one is stated.
     pub(super) fn orient_words(
         &mut self,
         code: &Code,

@@ -115,7 +115,7 @@ impl AtStart {
 pub(super) struct Dwells {
     /// Whether any was stated so far.
     pub(super) said: bool,
-    /// Where it was first relied on that none was said, in blocks that others call or come back to.
+    /// Where it was first relied on that none was stated, in blocks that others call or come back to.
     pub(super) relied: Option<Span>,
     /// Whether control went elsewhere so far while a cycle with a dwell was active.
     pub(super) carried: bool,
@@ -164,6 +164,6 @@ pub(super) struct Reported {
     pub(super) no_length: bool,
     /// Options of the dictionary, by place.
     pub(super) options: u32,
-    /// What is taken for granted of the control's own values.
+    /// What is assumed of the control's own values.
     pub(super) values: Vec<&'static str>,
 }

@@ -75,8 +75,8 @@ pub(super) struct ActiveCycle {
     pub(super) shrinking: Option<[Num; 3]>,
     /// Feed of the cycle's own block.
     pub(super) feed: Option<Num>,
-    /// Return level and retract plane with which it was activated last, on a control whose initial level is where the
-    /// tool stands before each block.
+    /// Return level and retract plane with which it was activated last, on a control whose initial level is where the tool is
+    /// before each block.
     pub(super) called: Option<(Fact<ReturnLevel>, Coord)>,
 }
 
@@ -95,7 +95,7 @@ pub(super) enum CycleState {
 pub(super) struct WordState {
     pub(super) modes: ModalState<Motion>,
     pub(super) return_level: Know<ReturnLevel>,
-    /// A return level was said while it was not known whether a cycle is active.
+    /// A return level was stated while it was not known whether a cycle is active.
     pub(super) level_changed: bool,
     /// The entry of the table of lengths that was named last.
     pub(super) length_entry: Know<u32>,
@@ -123,7 +123,7 @@ pub(super) struct WordState {
     pub(super) unplaced: u8,
     /// Another length is active, and no absolute Z was named since.
     pub(super) level_open: bool,
-    /// A feed that was said in a cycle's block and that no hole has used yet.
+    /// A feed that was stated in a cycle's block and that no hole has used yet.
     pub(super) cycle_feed: Option<Num>,
     /// The dwell that some cycle has said, where it stays active for others.
     pub(super) dwell_left: Know<Num>,

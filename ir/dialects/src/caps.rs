@@ -1,4 +1,4 @@
-//! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
+//! What can be stated in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
 mod computes;
 mod holes;

@@ -147,7 +147,7 @@ pub struct OrientWords {
     /// The option that says which of these letters it is on the machine at hand.
     #[serde(default)]
     pub option: Option<String>,
-    /// Letter of the time to wait for it, in seconds. Where there is one, it and the angle must be said.
+    /// Letter of the time to wait for it, in seconds. Where there is one, it and the angle must be stated.
     #[serde(default)]
     pub wait: Option<char>,
     /// Letter of the sense in which the spindle turns to it: 0 is the shorter way, and any other is refused.

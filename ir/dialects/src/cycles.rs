@@ -21,9 +21,9 @@ pub struct CycleRules {
     /// Whether they stay so only as long as it is the same code.
     pub retained_by_code: bool,
     /// Whether words that stay active are measured as the distance mode of each further block has it, not
-    /// as they were when they were said.
+    /// as they were when they were stated.
     pub measured_anew: bool,
-    /// Whether the initial level of a hole is where the tool stands before its block; else where it stood before the
+    /// Whether the initial level of a hole is where the tool is before its block; else where it stood before the
     /// first hole of the series.
     pub level_of_block: bool,
     /// Whether every move that is no cycle's, and the code that ends a cycle, make the initial level the return level
@@ -43,7 +43,7 @@ pub struct CycleRules {
     pub repeat_once: bool,
     /// Whether the dwell that any cycle has said stays active for a later cycle that can go without one.
     pub dwell_left: bool,
-    /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
+    /// Value of the peck cycle's clearance parameter assumed, in mm, where an expansion
     /// needs one.
     pub peck_clearance: Option<f64>,
     /// The alarm with which the control ends a program of which a cycle's planes do not lie one above the other.
@@ -87,7 +87,7 @@ pub struct CycleRow {
     /// of the least.
     #[serde(default)]
     pub shrinking: Option<[char; 3]>,
-    /// Whether the dwell must be said.
+    /// Whether the dwell must be stated.
     #[serde(default)]
     pub dwell_needed: bool,
     /// Of pecks, milliseconds that the control dwells by itself after each of them, at the bottom too.

@@ -39,7 +39,7 @@ pub struct NameRow {
     #[serde(default)]
     pub group: String,
     /// Whether empty brackets after a word that is refused say nothing: they return to the basic setting, which is
-    /// active wherever nothing else has been said.
+    /// active wherever nothing else has been stated.
     #[serde(default)]
     pub empty_brackets: bool,
     /// Whether the value 0 of an address that is refused says nothing: it is the basic setting.
@@ -217,7 +217,7 @@ pub struct CallRow {
     pub kind: CallKind,
     /// Its parameters in the order of the arguments. Trailing arguments may be left out.
     pub parameters: Vec<Parameter>,
-    /// Whether the control begins at the end, or corner, that is nearest to where the tool stands;
+    /// Whether the control begins at the end, or corner, that is nearest to where the tool is;
     /// the order of the holes is that of the parameters only if the tool stands at the first.
     #[serde(default)]
     pub order_by_position: bool,
@@ -290,7 +290,7 @@ pub struct Parameter {
     /// Values that change nothing; 0 and an empty argument count always.
     #[serde(default)]
     pub neutral: Vec<i64>,
-    /// What is written for it where nothing is to be said and an argument follows; else it is empty.
+    /// What is written for it where nothing is to be stated and an argument follows; else it is empty.
     #[serde(default)]
     pub write: Option<i64>,
     /// What another value does.

@@ -5,7 +5,7 @@ use ncc_ir::program::CentreFrom;
 use ncc_ir::program::cycle::Approach;
 use serde::Deserialize;
 
-/// State at power-on: what is taken for granted of a program that does not say.
+/// State at power-on: what is assumed of a program that does not say.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.

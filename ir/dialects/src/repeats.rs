@@ -32,7 +32,7 @@ impl RepeatRules {
 /// Ends of moves by radius and angle. With letters, of straight moves about a centre in the same block:
 /// `G1 R30. C45. I0. J0.`; the centre's words are those of arcs, and count from program zero; all four words
 /// stand in the block. With the signs `@` and `^`, of any move about program zero in the XY plane:
-/// `G1 @30 ^45`; a word that is missing, or an increment, counts from where the tool stands. Read alone: what
+/// `G1 @30 ^45`; a word that is missing, or an increment, counts from where the tool is. Read alone: what
 /// is written are coordinates.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]

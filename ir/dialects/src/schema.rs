@@ -376,7 +376,7 @@ pub struct Can {
     pub compensation_again: bool,
     /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is
     /// neither gone round nor cut short, and the first move after the contour leads to the programmed point of the
-    /// plane even if it has words of none of its axes. Of others it is taken for granted that every corner is gone
+    /// plane even if it has words of none of its axes. Of others it is assumed that every corner is gone
     /// round, and that the first move with such words leads there, where the path has to be computed.
     pub contour_left_at_once: bool,
     /// Canned cycles are driven through every point, whatever path mode is active (LinuxCNC's G61): no corner of

@@ -31,7 +31,7 @@ pub const TAPPING: &str = "tapping";
 /// Option of a dictionary: what becomes of the dwell of a rigid tapping cycle, during which spindle and drilling axis stand.
 pub const TAP_DWELL: &str = "tap_dwell";
 
-/// Value of [`TAP_DWELL`]: it is left out, and told.
+/// Value of [`TAP_DWELL`]: it is left out, and reported.
 pub const LEFT_OUT: &str = "left-out";
 
 /// Option of a dictionary whose dwells count by a point: what a dwell counts that is computed, `seconds` or
@@ -174,7 +174,7 @@ pub const PATH_TOLERANCE: &str = "path_tolerance";
 /// plane.
 pub const BORE_SHIFT: &str = "bore_shift";
 
-/// Option: the angle at which the spindle stops where nothing else is said, in degrees.
+/// Option: the angle at which the spindle stops where nothing else is stated, in degrees.
 pub const SPINDLE_ANGLE: &str = "spindle_angle";
 
 /// A dialect and the values of its options.

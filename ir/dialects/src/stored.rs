@@ -155,7 +155,7 @@ pub struct SystemRow {
     pub option: String,
     /// The value of the option with which it does.
     pub when: String,
-    /// What is taken for granted where it is asked, in words; empty if nothing is.
+    /// What is assumed where it is asked, in words; empty if nothing is.
     pub assumes: String,
     /// What it means: the name of a system variable, without its axis, entry and unit.
     pub means: String,

@@ -32,7 +32,7 @@ pub struct NumberRules {
     pub decimals: u8,
     /// The same, in inches; `None` if the unit makes no difference.
     pub decimals_inch: Option<u8>,
-    /// Most digits that are written, at most 9; 8 if nothing is said.
+    /// Most digits that are written, at most 9; 8 if nothing is stated.
     pub digits: Option<u8>,
     /// What a number without a point counts.
     pub bare: Bare,

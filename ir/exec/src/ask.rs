@@ -73,7 +73,7 @@ impl Exec {
         self.cycle.as_ref().map(ActiveCycle::levels)
     }
 
-    /// Feed active, mm/min in nanos; 0 where none was said.
+    /// Feed active, mm/min in nanos; 0 where none was stated.
     pub fn feed(&self) -> Nanos {
         self.feed
     }
@@ -120,8 +120,8 @@ impl Exec {
     }
 
     /// What the program gets that asks for a value of the control's own; `None` is what is not known here, or not
-    /// the same on every control at this place: where the tool stands beside a contour or at a corner that is not
-    /// made yet, or along Z while a length waits to take effect; a feed that was said in the other unit.
+    /// the same on every control at this place: where the tool is beside a contour or at a corner that is not
+    /// made yet, or along Z while a length waits to take effect; a feed that was stated in the other unit.
     pub fn answer(&self, asked: &System) -> Option<f64> {
         let holds = |holds: bool| Some(f64::from(u8::from(holds)));
         match asked {

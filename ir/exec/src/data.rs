@@ -53,7 +53,7 @@ impl Exec {
     }
 
     /// A rapid straight move that goes another way than straight. By the intermediate point it goes where that is
-    /// the same place of the work and of the machine as when it was said: which of them a control keeps is not
+    /// the same place of the work and of the machine as when it was stated: which of them a control keeps is not
     /// relied on.
     #[cold]
     pub(super) fn go_by_detour(

@@ -107,7 +107,7 @@ pub enum Stored {
     Tool(u32),
     /// Length of an entry of the table of tools, wear included.
     Length(u32, Nanos),
-    /// Another value of an entry of that table: which, whether it was added, and what was said.
+    /// Another value of an entry of that table: which, whether it was added, and what was stated.
     Value(u32, ToolValue, bool, Nanos),
 }
 

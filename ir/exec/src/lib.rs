@@ -140,7 +140,7 @@ pub struct Exec {
     feed: Nanos,
     /// The time of the move at hand, where its feed says it in a way of the control.
     pace: moves::pace::Pace,
-    /// Whether it was said in inches, if it was said in either.
+    /// Whether it was stated in inches, if it was stated in either.
     feed_inch: Option<bool>,
     selected: i64,
     /// The tool of the last change; -1 before the first.

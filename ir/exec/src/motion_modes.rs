@@ -26,7 +26,7 @@ impl Exec {
         self.world.break_lift = lift;
     }
 
-    /// Sets the angle at which the control stops the spindle where nothing else is said, degrees in nanos.
+    /// Sets the angle at which the control stops the spindle where nothing else is stated, degrees in nanos.
     pub fn set_orientation(&mut self, angle: Nanos) {
         self.world.orientation = angle;
     }
@@ -85,7 +85,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Executes a statement; if it is a straight move, its rotary axes go the way that was said before it.
+    /// Executes a statement; if it is a straight move, its rotary axes go the way that was stated before it.
     #[cold]
     pub(super) fn step_turning(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let (Op::StraightFeed(m) | Op::StraightTraverse(m)) = &stmt.op else {
@@ -213,7 +213,7 @@ impl Exec {
     /// about power-on do not count any more.)
     ///
     /// An active cycle is part of the state. All that a hole takes of it is in `ActiveCycle`, the control's parameters
-    /// included, but for the angle at which fine boring stops the spindle where nothing else is said.
+    /// included, but for the angle at which fine boring stops the spindle where nothing else is stated.
     pub fn agrees(&self, other: &Exec) -> bool {
         self.modes.return_level == other.modes.return_level
             && self.has_cycle_of(other)

@@ -61,7 +61,7 @@ pub struct World {
     pub increments: Option<Increments>,
     /// Whether the operator's switch for optional stops is on.
     pub optional_stop: bool,
-    /// Angle at which the spindle stops where nothing else is said, degrees.
+    /// Angle at which the spindle stops where nothing else is stated, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
     pub bore_shift: Sideways,

@@ -135,7 +135,7 @@ impl Legaliser {
     }
 
     /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes
-    /// are to be run first, what the source's control makes of the words is said alone.
+    /// are to be run first, what the source's control makes of the words is stated alone.
     pub fn frame_increments(
         &mut self,
         program: &mut Program,
@@ -202,7 +202,7 @@ impl Legaliser {
     }
 
     /// Brings further statements of the main procedure within the target's capabilities. `assumed`
-    /// are the facts taken for granted so far; `lines`: they go along lines alone.
+    /// are the facts assumed so far; `lines`: they go along lines alone.
     pub fn run(
         &mut self,
         stmts: &mut Vec<Stmt>,
@@ -336,7 +336,7 @@ impl Legaliser {
     }
 
     /// Whether all that the passes do with lines, for which these statements stand, is to follow them: nothing concerns
-    /// them but a frame that is said as it stands.
+    /// them but a frame that is stated as it stands.
     pub fn follows(&self, stand: &[Stmt], lines: Lines) -> bool {
         let needs = self.needs(stand);
         let framed = || self.shared.states.ask(|own: &ExpandFramesState| own.leaves(stand));

@@ -211,7 +211,7 @@ pub(crate) struct Shared {
     pub(crate) measures: bool,
     /// Which arcs the source's control accepts, if the target's has another rule.
     pub(crate) source_arcs: Option<ArcRule>,
-    /// Whether feeds are said again after a change of units.
+    /// Whether feeds are stated again after a change of units.
     pub(crate) feed_again: bool,
     /// Whether the target counts F of some moves otherwise than the source.
     pub(crate) times_differ: bool,
@@ -260,7 +260,7 @@ pub(crate) struct Piece<'p> {
     pub(crate) needs: u32,
     /// What holds before it: every pass walks from there.
     pub(crate) start: &'p Walk,
-    /// Facts taken for granted so far.
+    /// Facts assumed so far.
     pub(crate) assumed: &'p Modes,
     /// Whether it goes along lines alone, by words from zero.
     pub(crate) lines: Option<Lines>,

@@ -86,7 +86,7 @@ pub enum LengthThere {
 sides!(LengthThere, Stays, Off, stays);
 
 impl LengthThere {
-    /// Whether it stays: as asked, where either can be said.
+    /// Whether it stays: as asked, where either can be stated.
     pub fn or(self, asked: bool) -> bool {
         match self {
             LengthThere::Either => asked,

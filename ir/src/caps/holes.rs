@@ -16,7 +16,7 @@ pub struct HoleCaps {
     pub circles: bool,
     /// Form of a circle's first hole.
     pub circle_start: CircleStart,
-    /// Whether the circle's centre must be program zero and where the tool stands.
+    /// Whether the circle's centre must be program zero and where the tool is.
     pub centre_at_zero_only: bool,
     /// Grids up to this many columns and rows; 0 is none.
     pub grid_upto: u32,
@@ -30,13 +30,13 @@ pub struct HoleCaps {
     pub list_upto: u32,
     /// Patterns can begin at a stated position.
     pub pattern_start: bool,
-    /// Patterns can begin where the tool stands, and may have no holes and no pitch; where not, the
+    /// Patterns can begin where the tool is, and may have no holes and no pitch; where not, the
     /// pitches of lines count positive as well.
     pub pattern_here: bool,
     /// Rows and lines at any angle.
     pub pattern_angle: bool,
-    /// Whether the control begins a line or a grid at the end, or corner, that is nearest to where
-    /// the tool stands: the order is that of the pattern only where the tool stands at its first hole.
+    /// Whether the control begins a line or a grid at the end, or corner, that is nearest to where the tool is:
+    /// the order is that of the pattern only where the tool is at its first hole.
     pub order_by_position: bool,
     /// Whether hole positions may be incremental while a cycle is active.
     pub incremental: bool,
@@ -44,7 +44,7 @@ pub struct HoleCaps {
     pub returns: ReturnsTo,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub measured_anew: bool,
-    /// The initial level of a hole is where the tool stands before its block; else where it stood before the series.
+    /// The initial level of a hole is where the tool is before its block; else where it stood before the series.
     pub level_of_block: bool,
     /// After the end of a cycle no motion is active.
     pub end_motion: bool,

@@ -16,7 +16,7 @@ macro_rules! sides {
                 if $which { $name::$yes } else { $name::$no }
             }
 
-            /// Whether this side can be said.
+            /// Whether this side can be stated.
             pub fn says(self, $which: bool) -> bool {
                 self == $name::Either || self == $name::only($which)
             }

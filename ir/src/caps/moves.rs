@@ -20,7 +20,7 @@ pub struct MoveCaps {
     pub corners: Corners,
     /// An exact stop of one move.
     pub exact_stop: bool,
-    /// What is said for one move may stand before its block.
+    /// What is stated for one move may stand before its block.
     pub one_move_apart: bool,
     /// Straight spindle-synchronised moves.
     pub threads: Threads,

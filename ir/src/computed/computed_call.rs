@@ -13,7 +13,7 @@ use crate::source::Span;
 pub struct ComputedCall<'c> {
     /// The number of the program, where it is computed.
     pub number: Option<&'c Expr>,
-    /// The program, where it is said.
+    /// The program, where it is stated.
     pub name: Option<&'c Text>,
     /// Repeat count, where that is computed.
     pub times: Option<&'c Expr>,

@@ -211,7 +211,7 @@ pub struct Computes {
     pub increments: [u8; 2],
     /// Whether the angles of an arc sine and an arc tangent lie from 0 to a turn, as the machine may be set.
     pub turn: bool,
-    /// Whether the opposite of a condition can be said.
+    /// Whether the opposite of a condition can be stated.
     pub opposite: bool,
     /// Whether comparisons find real numbers equal that are nearly so.
     pub near: bool,
@@ -268,7 +268,7 @@ impl Computes {
         }
     }
 
-    /// Whether a variable can be said.
+    /// Whether a variable can be stated.
     pub fn says(&self, var: &Var) -> bool {
         let among = |ranges: &[[u32; 2]], name: &str| {
             let name = name.strip_prefix(&*self.prefix).unwrap_or_default();
@@ -285,7 +285,7 @@ impl Computes {
         }
     }
 
-    /// Whether variables that have numbers can all be said, by the same numbers.
+    /// Whether variables that have numbers can all be stated, by the same numbers.
     fn says_all(&self, range: &Numbers) -> bool {
         let ranges = match range.scope {
             Scope::Local => &self.local,

@@ -243,7 +243,7 @@ impl Expr {
         Expr::Node(Box::new(Node::Binary(operator, a, b)))
     }
 
-    /// The sum of two, exact where both are numbers of one unit; else it is said as it stands.
+    /// The sum of two, exact where both are numbers of one unit; else it is stated as it stands.
     pub fn plus(&self, other: &Expr) -> Expr {
         let exact = self.literal().zip(other.literal()).and_then(|(a, b)| a.plus(b));
         exact.map_or_else(|| Expr::binary(Binary::Add, self.operand(), other.operand()), Expr::from)

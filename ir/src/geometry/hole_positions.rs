@@ -16,7 +16,7 @@ pub trait Here {
     /// What is reported if it is not.
     type Unknown;
 
-    /// Where the tool stands in the plane: first axis, second axis.
+    /// Tool position in the plane: first axis, second axis.
     ///
     /// # Errors
     /// It is not known.

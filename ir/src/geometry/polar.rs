@@ -53,7 +53,7 @@ pub trait About {
     /// It is not known.
     fn is_increment(&self, distance: Fact<Distance>) -> Result<bool, Self::Unknown>;
 
-    /// Where the tool stands along an axis.
+    /// Tool position along an axis.
     ///
     /// # Errors
     /// It is not known.
@@ -146,7 +146,7 @@ pub fn point<A: About>(polar: &Polar, plane: Plane, about: &A) -> Result<([Nanos
     Ok((at, Pole { plane: Some(plane), radius: Some(radius), angle: Some(angle), ..before }))
 }
 
-/// A line that is said by its angle and lies nearer than this to square with the axis of its word ends
+/// A line that is stated by its angle and lies nearer than this to square with the axis of its word ends
 /// anywhere.
 const LEAST_SLOPE: f64 = 1e-4;
 

@@ -20,7 +20,7 @@ reasons! {
         HolesOfUnknownCycle,
         /// A rotary axis in a canned cycle.
         RotaryAxis,
-        /// A hole where the tool stands, in incremental coordinates.
+        /// A hole where the tool is, in incremental coordinates.
         IncrementalHoleHere,
         /// A position in a unit that is not known.
         PositionUnitUnknown,
@@ -124,7 +124,7 @@ reasons! {
         ActiveOverToolChange,
         /// A tool change while a canned cycle is active.
         ToolChangeInCycle,
-        /// A level for holes from where the tool stands before any absolute Z.
+        /// A level for holes from where the tool is before any absolute Z.
         LevelBeforeZ,
         /// Axis words that move as the caller does, after the end of a cycle.
         CallersMotionAfterCycle,

@@ -185,7 +185,7 @@ pub enum Shift {
 /// A distance that some controls have as a word and others as a machine parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Clearance {
-    /// Said by the program, or taken for granted by the translation.
+    /// Said by the program, or assumed by the translation.
     Stated(Expr),
     /// The control's own parameter; its value belongs to the world.
     Parameter,
@@ -210,7 +210,7 @@ pub fn clearance_by_depth(hole: &Expr, units: Units) -> Expr {
     of(Function::Min, of(Function::Max, length(6), part), length(70))
 }
 
-/// The way to a hole, from where the tool stands to the retract plane over it.
+/// The way to a hole, from where the tool is to the retract plane over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Approach {
     /// In the plane first, at the present level (Fanuc).
@@ -227,9 +227,9 @@ pub enum Approach {
 /// How the way to a hole begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leg {
-    /// To the retract plane where the tool stands, then in the plane.
+    /// To the retract plane where the tool is, then in the plane.
     Level,
-    /// In the plane, at the level where the tool stands.
+    /// In the plane, at the level where the tool is.
     Aside,
     /// Straight to the return level above the hole.
     Slant,
@@ -365,7 +365,7 @@ impl CycleKind {
 pub enum Pattern {
     /// Holes on a circle, counter-clockwise for a positive step.
     Circle {
-        /// Centre in the plane; `None` is where the tool stands.
+        /// Centre in the plane; `None` is where the tool is.
         centre: Option<[Coord; 2]>,
         /// Position of the first hole.
         first: First,
@@ -376,7 +376,7 @@ pub enum Pattern {
     },
     /// Holes on a straight line.
     Line {
-        /// Where it begins; `None` is where the tool stands.
+        /// Where it begins; `None` is where the tool is.
         start: Option<[Coord; 2]>,
         /// Its direction in the plane, degrees from the first axis, counter-clockwise.
         angle: Expr,
@@ -391,7 +391,7 @@ pub enum Pattern {
     List(Vec<Point>),
     /// Rows of holes.
     Grid {
-        /// The first hole; `None` is where the tool stands.
+        /// The first hole; `None` is where the tool is.
         start: Option<[Coord; 2]>,
         /// Direction of a row and pitch along it, signed.
         columns: Row,

@@ -60,14 +60,14 @@ pub enum Slot {
         /// Its plane.
         plane: Fact<Plane>,
         /// From program zero along X, Y and Z, of which the two of the plane count; one that is missing
-        /// is where the tool stands.
+        /// is where the tool is.
         centre: Box<[Option<Expr>; 3]>,
         /// Degrees, counter-clockwise positive; an increment is added to the active angle.
         angle: Coord,
     },
     /// `SET_SCALE`
     Scale {
-        /// From program zero along X, Y and Z; one that is missing is where the tool stands.
+        /// From program zero along X, Y and Z; one that is missing is where the tool is.
         centre: Box<[Option<Expr>; 3]>,
         /// Factors along X, Y and Z, more than zero; one that is missing is 1.
         factors: Box<[Option<Expr>; 3]>,

@@ -98,7 +98,7 @@ impl Row {
         self.form & FEED != 0
     }
 
-    /// Whether another one says the same line; of the feeds that they state nothing is said.
+    /// Whether another one says the same line; of the feeds that they state nothing is stated.
     #[inline(always)]
     pub fn says_the_same(&self, other: &Row) -> bool {
         self.mantissas == other.mantissas && (self.form ^ other.form) & SAME == 0

@@ -59,7 +59,7 @@ use crate::source::Span;
 pub struct Program {
     /// What the text calls it.
     pub name: ProgramName,
-    /// Facts that were taken for granted because the program relies on them and never says them.
+    /// Facts that were assumed because the program relies on them and never says them.
     pub assumed: Modes,
     /// `procedures[0]` is the main procedure.
     pub procedures: Vec<Procedure>,
@@ -92,10 +92,10 @@ pub struct Procedure {
     /// Parameters, in the order of a call's arguments. One that all procedures see is the caller's variable itself: the
     /// call gives it that variable's value, and an assignment after the call, in its block, gives it back.
     pub parameters: Vec<Var>,
-    /// What the parameters hold, in their order, where that is said; else any number. A call has converted what it
+    /// What the parameters hold, in their order, where that is stated; else any number. A call has converted what it
     /// hands over.
     pub kinds: Vec<Type>,
-    /// What is said of it as a whole, in the order in which it is said.
+    /// What is said of it as a whole, in the order in which it is stated.
     pub attributes: Vec<Attribute>,
     /// What it does.
     pub body: Vec<Stmt>,
@@ -221,7 +221,7 @@ pub enum Op {
     /// while rotary axes turn the tool or the work. Moves nothing. Where the axes stand in the program's
     /// coordinates after it, the machine alone knows.
     UseToolCentrePoint(bool),
-    /// `ORIENT_TOOL_AXIS`: rotary axes go to where the tool stands upright on the tilted plane. Which way,
+    /// `ORIENT_TOOL_AXIS`: rotary axes go to where the tool is upright on the tilted plane. Which way,
     /// and what the linear axes do meanwhile, is the machine's.
     OrientToolAxis(Option<Toward>),
     /// `SET_OFFSET_DATA` or `SET_TOOL_DATA`: puts values into the control's tables.

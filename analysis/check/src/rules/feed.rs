@@ -10,7 +10,7 @@ use crate::limits::Unchecked;
 use crate::seen::Known;
 use crate::watched::Watched;
 
-/// A feed is said.
+/// A feed is stated.
 pub(crate) fn said(checker: &mut Watched, feed: Nanos, at: Span) {
     match checker.limits.max_feed {
         Some(limit) if feed > limit => {

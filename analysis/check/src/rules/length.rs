@@ -17,7 +17,7 @@ pub(crate) fn changed(checker: &mut Watched, event: &Event) {
     };
 }
 
-/// A length is said: a tool's, or none.
+/// A length is stated: a tool's, or none.
 pub(crate) fn said(checker: &mut Watched, at: Span, exec: &Exec) {
     let none = exec.length_entry() == Some(0) || exec.length_edge().is_some_and(|(_, edge)| edge == 0);
     if none {

@@ -43,7 +43,7 @@ impl Words {
         }
     }
 
-    /// Reports what an expression takes for granted of the machine.
+    /// Reports what an expression assumes of the machine.
     pub(crate) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
         if arcs(e) {
             self.rely(ANGLE_RANGE, span, sink);

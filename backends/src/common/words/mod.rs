@@ -1,5 +1,5 @@
 //! A writer of words, letters with numbers, which writers hold that have them: the block at hand, what is active in
-//! the text, where the axes are, and the statements that are said by codes and addresses alone.
+//! the text, where the axes are, and the statements that are stated by codes and addresses alone.
 //!
 //! ```text
 //! STRAIGHT_FEED(X 10.5mm) & SET_FEED_RATE(100mm)    `G1 X10.5 F100.`
@@ -73,7 +73,7 @@ pub(crate) struct Words {
     /// Whether any residue is not zero.
     pub(crate) residual: bool,
     pub(crate) preamble: Option<Preamble>,
-    /// Facts taken for granted that were known at the last piece.
+    /// Facts assumed that were known at the last piece.
     pub(crate) assumed: Modes,
     /// Whether facts of the program's start may have been changed unseen (a call, a skipped block).
     pub(crate) lost: bool,

@@ -137,13 +137,13 @@ impl Words {
                 self.active.our_level = false;
             }
             Setting::Turns => self.active.spindle_mode = Some(SpindleMode::Turns),
-            // The code of a cycle's end leaves the motion to be said again.
+            // The code of a cycle's end leaves the motion to be stated again.
             Setting::NoCycle => self.active.motion = None,
             Setting::Origin(_) | Setting::NoShift | Setting::NoCompensation | Setting::NoLength => {}
         }
     }
 
-    /// Takes over facts that the source took for granted, where this control has them at its own
+    /// Takes over facts that the source assumed, where this control has them at its own
     /// power-on as well and nothing in the text can have changed them.
     pub(crate) fn take_for_granted(&mut self, assumed: &Modes) {
         if self.lost {

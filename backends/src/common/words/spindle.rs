@@ -32,7 +32,7 @@ pub(crate) struct Surfaces {
     pub(crate) unlimited: bool,
     /// A code whose speed must follow it in its block.
     waits: Option<Span>,
-    /// A limit that is to be said with the surface speed that follows.
+    /// A limit that is to be stated with the surface speed that follows.
     pub(crate) unsaid: Option<Span>,
 }
 

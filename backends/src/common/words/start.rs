@@ -1,7 +1,7 @@
 //! The safe start: what a written program states before its first event.
 //!
-//! It says what the source says before its first event, then what the translation takes for
-//! granted; a fact that neither knows is left out. Comments that come before wait after it.
+//! It says what the source says before its first event, then what the translation assumes
+//! ; a fact that neither knows is left out. Comments that come before wait after it.
 
 use ncc_dialects::SafeStart;
 use ncc_ir::canon::{Axis, Distance, Fact, Modes, ReturnLevel, Units};
@@ -27,7 +27,7 @@ pub(crate) struct Preamble {
     /// Whether anything was absorbed.
     any: bool,
     /// Whether the first way along Z is so far from where the axis stands, or a thread or an arc from there, and no
-    /// length is said before it: whether it is longer by a length that it applies, or cancels, is a setting of the
+    /// length is stated before it: whether it is longer by a length that it applies, or cancels, is a setting of the
     /// control.
     up_from_here: bool,
     /// Number of the first absorbed block.
@@ -253,7 +253,7 @@ impl Words {
     }
 }
 
-/// What the source says, else what is taken for granted.
+/// What the source says, else what is assumed.
 struct Facts<'a> {
     said: &'a Modes,
     assumed: &'a Modes,

@@ -1,4 +1,4 @@
-//! One statement that is said by codes and words alone: which ones, and where they stand in the block.
+//! One statement that is stated by codes and words alone: which ones, and where they stand in the block.
 
 use ncc_ir::canon::{Motion, PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;

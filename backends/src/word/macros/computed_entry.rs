@@ -81,7 +81,7 @@ impl Writer {
 
     /// The variable that a place is.
     fn place_by_number(&self, place: &Place, number: &Expr) -> Result<String, Fault> {
-        // As they are said one by one, or not at all.
+        // As they are stated one by one, or not at all.
         self.words.spelling(None)?.target(&Target::Var(Var::System(place.first.clone())))?;
         let at = vec![number_of(place, number)];
         let element = Element { of: Many::Numbered(Box::new([])), at };

@@ -196,7 +196,7 @@ impl Writer {
         format!("{to}{blank}={blank}{value}")
     }
 
-    /// A variable gets another value: what was said with it is not what the same words would say now. A cycle that
+    /// A variable gets another value: what was stated with it is not what the same words would say now. A cycle that
     /// is computed from it is activated before.
     fn variable_changes(&mut self, to: &Target, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !self.held.as_ref().is_some_and(|held| held.reads(to)) {

@@ -110,7 +110,7 @@ pub struct Program {
     pub machine: Option<String>,
     /// Every option of the dialect, as it was used.
     pub options: BTreeMap<String, Choice>,
-    /// What was taken for granted of this program alone.
+    /// What was assumed of this program alone.
     pub assumed: Vec<Assumed>,
     /// Rows of its dictionary that nobody has confirmed, and that it uses.
     pub unconfirmed: Vec<Row>,

@@ -1,7 +1,7 @@
 //! A pair of programs executed and compared, as strictly as a translation compares what it has written:
 //! in the same generated worlds, under the same settings of the block-skip switches.
 //!
-//! What the source relies on and never says is taken for granted of it. Of the output it is not: what
+//! What the source relies on and never says is assumed of it. Of the output it is not: what
 //! it leaves unsaid is known only where its dialect or its machine's profile settles it, or where a
 //! translation would leave it unsaid too (`shared`); about everything else the worlds disagree. Each
 //! side runs on a thread of its own and hands its events over in pieces, so that memory does not grow
@@ -77,7 +77,7 @@ pub struct Found {
     pub first: Option<(Difference, u16)>,
     /// Whether messages were left out, because one control has none.
     pub muted: bool,
-    /// Parameters of cycles that were taken for granted of both controls.
+    /// Parameters of cycles that were assumed of both controls.
     pub parameters: bool,
 }
 
@@ -225,7 +225,7 @@ fn shared(job: &Job, source: &Course, one_control: bool) -> Modes {
 }
 
 /// Facts that a translation into the output's dialect says at the latest before the first event, or
-/// that always hold there. Of their values nothing is said.
+/// that always hold there. Of their values nothing is stated.
 fn said_by_custom(job: &Job) -> Modes {
     let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
     let mut said = to;

@@ -201,7 +201,7 @@ fn a_tool_by_name_gets_the_number_of_the_target() {
             maps.tool_names.insert("mill".into(), 99);
         });
         assert_eq!(told(&other), [601], "{both}");
-        // One that the target's machine has no number for cannot be said.
+        // One that the target's machine has no number for cannot be stated.
         assert!(told(&named(both, |maps| maps.tool_names.clear())).contains(&501), "{both}");
     }
 }

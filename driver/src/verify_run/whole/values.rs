@@ -17,7 +17,7 @@ const LEFT_THERE: f64 = -791.3;
 /// Values that any variable may have.
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
-/// What may be taken for granted of a source's numbers, alone and together.
+/// What may be assumed of a source's numbers, alone and together.
 pub(super) const READINGS: [&[Assumption]; 7] = [
     &[Assumption::Apart],
     &[Assumption::NotNegative],

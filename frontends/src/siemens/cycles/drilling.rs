@@ -253,7 +253,7 @@ impl Lower {
             }
             self.push(block, Op::StartCycle(cycle.clone()), out);
             self.idle_tap = says_speed;
-            // Whether it has made a hole or not: which feed is active after it must be said.
+            // Whether it has made a hole or not: which feed is active after it must be stated.
             self.hole_made(&cycle);
             self.state.cycle = ModalCall::Active(cycle);
             return;
@@ -306,7 +306,7 @@ impl Lower {
         self.push(at, Op::EndCycle, out);
     }
 
-    /// Calls the active cycle up again if a feed was said since, which is not its own.
+    /// Calls the active cycle up again if a feed was stated since, which is not its own.
     pub(in crate::siemens) fn call_up_again(&mut self, cycle: &Cycle, at: Span, out: &mut Batch) {
         self.idle_tap = false;
         if std::mem::take(&mut self.recall) {

@@ -111,7 +111,7 @@ impl Lower {
                     let what = MoveUnsupported::PositionAtFeed;
                     self.not_supported(&src.text(block), what, block, out);
                 } else if self.idle_tap {
-                    // On the way there the spindle still has the speed that was said before.
+                    // On the way there the spindle still has the speed that was stated before.
                     let what = MoveUnsupported::TapPosition;
                     self.idle_tap = false;
                     self.not_supported(&src.text(block), what, block, out);

@@ -14,7 +14,7 @@ use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::{ModalCall, Motion};
 
 impl Lower {
-    /// Control leaves here, or may come here from elsewhere: what is active must have been said.
+    /// Control leaves here, or may come here from elsewhere: what is active must have been stated.
     pub(in crate::siemens) fn leave_motion(&mut self, at: Span, out: &mut Batch) {
         if let Some(op) = self.untold_motion(at, out) {
             self.push(at, op, out);
@@ -44,7 +44,7 @@ impl Lower {
             self.state.cycle,
             ModalCall::Active(_) | ModalCall::Inherited { .. } | ModalCall::Lost { .. }
         ) {
-            // A move to nowhere would be one of its positions. Where they are reached in rapid, nothing is to be said.
+            // A move to nowhere would be one of its positions. Where they are reached in rapid, nothing is to be stated.
             if motion != Motion::Traverse && std::mem::take(&mut self.motion_without_move) {
                 let what = MoveUnsupported::MotionUnderCycle;
                 self.not_supported(word_of(motion), what, at, out);

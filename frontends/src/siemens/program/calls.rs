@@ -496,7 +496,7 @@ impl Lower {
         self.refresh();
     }
 
-    /// What is called runs under what the text has not said: as the program begins, where that is taken for granted.
+    /// What is called runs under what the text has not said: as the program begins, where that is assumed.
     fn as_it_begins(&mut self, out: &mut Batch) {
         let power_on = &self.settings.dialect.power_on;
         let (units, plane) = (self.state.modes.units, self.state.modes.plane);

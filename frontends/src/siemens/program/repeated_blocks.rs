@@ -100,7 +100,7 @@ fn differing(a: &SiemensState, b: &SiemensState) -> u8 {
         | bit(a.cycle != b.cycle, CYCLE)
 }
 
-/// Whether a fact is another one. What was taken for granted since held before as well.
+/// Whether a fact is another one. What was assumed since held before as well.
 fn changed<T: Copy + PartialEq>(before: Know<T>, now: Know<T>) -> bool {
     let taken = matches!((before, now), (Know::Unsaid, Know::Taken(_)));
     before.value() != now.value() && !taken
@@ -117,7 +117,7 @@ pub(in crate::siemens) enum NotRepeatable {
 
 impl RepeatedBlocks {
     /// Whether nothing comes of relying on these facts, or of saying one of them: no block can be repeated, or it is
-    /// known of every label already that they are said after it, or relied on.
+    /// known of every label already that they are stated after it, or relied on.
     pub(in crate::siemens) fn knows(&self, facts: u8) -> bool {
         // What the last one knows, all before it do.
         self.labels.last().is_none_or(|label| (label.used | label.said) & facts == facts)
@@ -179,7 +179,7 @@ impl RepeatedBlocks {
         self.labels.iter_mut().for_each(|label| label.used = u8::MAX);
     }
 
-    /// A fact is said.
+    /// A fact is stated.
     pub(in crate::siemens) fn say(&mut self, fact: u8) {
         for label in self.labels.iter_mut().rev() {
             if label.said & fact != 0 {

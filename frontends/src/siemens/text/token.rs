@@ -171,7 +171,7 @@ impl<'t> Tokens<'t> {
         String::from_utf8_lossy(self.raw.slice()).into()
     }
 
-    /// A stretch that is no token. What is open is not closed: that is said, not the sign.
+    /// A stretch that is no token. What is open is not closed: that is stated, not the sign.
     fn unexpected(&self) -> Lexed {
         let start = self.raw.span().start;
         let rest = &self.raw.source()[start..];

@@ -184,7 +184,7 @@ pub(crate) struct Place {
     pub(crate) address: Address,
     /// The number of `R5`, `X1`, `S2`.
     pub(crate) extension: Option<u32>,
-    /// What stands in brackets.
+    /// Contents of the brackets.
     pub(crate) index: Vec<Option<Expr>>,
     pub(crate) span: Span,
 }
@@ -255,7 +255,7 @@ pub(crate) struct Declared {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Type {
     pub(crate) name: TypeName,
-    /// What stands in brackets after it: the length of a `STRING`, dimensions in `EXTERN`.
+    /// Contents of the brackets after it: the length of a `STRING`, dimensions in `EXTERN`.
     pub(crate) size: Vec<Option<Expr>>,
 }
 

@@ -213,7 +213,7 @@ fn is_label(stmt: &Stmt) -> bool {
     matches!(stmt.op, Op::Label(_))
 }
 
-/// Whether something was taken for granted that had not been reported before.
+/// Whether something was assumed that had not been reported before.
 fn is_assumption(found: &Diagnostic) -> bool {
     matches!(
         found.fault,
@@ -225,7 +225,7 @@ fn is_assumption(found: &Diagnostic) -> bool {
     )
 }
 
-/// Where the block of a number begins. A number that stands twice names none.
+/// Where the block of a number begins. A number that occurs twice names none.
 fn block_of(body: &[Stmt], (number, at): (u32, Span)) -> Result<usize, (Fault, Span)> {
     let mut found = body.iter().enumerate().filter(|(_, stmt)| stmt.number == Some(number)).map(|(at, _)| at);
     match (found.next(), found.next()) {

@@ -17,7 +17,7 @@ use crate::word::lower::Lower;
 use crate::word::word_state::CycleState;
 
 impl Lower {
-    /// Ends the active cycle before it is activated again, on a control whose initial level is where the tool stands
+    /// Ends the active cycle before it is activated again, on a control whose initial level is where the tool is
     /// before each block, where that level counts and may be another than before the series.
     pub(super) fn start_anew(&mut self, level: Fact<ReturnLevel>, block: Span, out: &mut Batch) -> bool {
         if !self.settings.dialect.cycles.level_of_block {

@@ -40,7 +40,7 @@ impl Number {
         u32::try_from(number).ok()
     }
 
-    /// What the variable is worth where the number is this one, if that is whole.
+    /// Value of the variable where the number is this one, if that is whole.
     fn worth(&self, number: u32) -> Option<i64> {
         let rest = i64::from(number).checked_sub(self.more)?;
         rest.checked_div(self.times).filter(|worth| worth.checked_mul(self.times) == Some(rest))
@@ -274,7 +274,7 @@ impl Lower {
         place_of(row, at)
     }
 
-    /// What the variable is worth for each place of the table that a number is likely to be of: the one nearest to what
+    /// Value of the variable for each place of the table that a number is likely to be of: the one nearest to what
     /// the variable was given last.
     fn worths(&self, numbers: &[Number]) -> Vec<i64> {
         let Some(number) = numbers.first() else { return Vec::new() };

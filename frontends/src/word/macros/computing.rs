@@ -3,7 +3,7 @@
 //! At a jump target (a block that jumps name, the head of a loop, after its end) every
 //! fact is lost, as after a call. A word whose variable was never set is left out when the program runs.
 //!
-//! Not here: which expressions there are (`formula`), and what they are worth.
+//! Not here: which expressions there are (`formula`), and their values.
 
 mod values;
 
@@ -343,7 +343,7 @@ impl Lower {
     }
 
     /// A variable gets another value, any where it is not said which: what has been computed from it and is not said
-    /// yet must not be said with it.
+    /// yet must not be stated with it.
     pub(in crate::word) fn assigned(&mut self, to: Option<&Target>, span: Span, out: &mut Batch) {
         self.argument_changes(span, out);
         let reads = |value: &Expr| match to {

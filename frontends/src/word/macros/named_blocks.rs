@@ -79,7 +79,7 @@ mod tests {
     }
 
     proptest! {
-        /// As it is said: each place of the text is looked at for each of the words.
+        /// As it is stated: each place of the text is looked at for each of the words.
         #[test]
         fn it_is_found_wherever_it_stands(text in "[GOTOgoto \\]1]{0,12}") {
             let has = |word: &str| text.to_ascii_uppercase().contains(word);

@@ -92,7 +92,7 @@ impl Lower {
         if to.axes.iter().flatten().any(|word| word.distance == Fact::Known(Distance::Incremental)) {
             return refuse(MoveUnsupported::MachineIncrement);
         }
-        // Where such a move is always a rapid, none need have been said before.
+        // Where such a move is always a rapid, none need have been stated before.
         let motion = match rapid && !said {
             true => None,
             false => match self.motion(block, out) {

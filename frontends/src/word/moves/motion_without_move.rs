@@ -18,7 +18,7 @@ use crate::word::word_state::{CycleState, WordState};
 impl Lower {
     /// A code of motion; `before` is what was known until then.
     pub(in crate::word) fn said_motion(&mut self, motion: Motion, before: Know<Motion>, span: Span) {
-        // What is active already is said.
+        // What is active already is stated.
         if self.motion_without_move.code.is_some() || before.value() != Some(motion) {
             self.motion_without_move.code = Some((span, motion));
         }

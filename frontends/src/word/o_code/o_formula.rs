@@ -88,7 +88,7 @@ impl Formula {
     }
 }
 
-/// What an expression without parameters is worth.
+/// Value of an expression without parameters.
 pub(in crate::word) fn constant(expr: &Expr) -> Option<f64> {
     let node = match expr {
         Expr::Num(n) => return Some(n.mantissa as f64 / 10f64.powi(i32::from(n.scale))),

@@ -89,7 +89,7 @@ impl Lower {
 
     /// The settings of a block. They count when the words of the block have been read, which have the values
     /// before them, as the settings have among themselves; a message has those after them. `words` is whether the
-    /// words have been said.
+    /// words have been stated.
     pub(in crate::word) fn settings(&mut self, block: &Block, words: bool, out: &mut Batch) {
         if block.settings.is_empty() || self.now.failed {
             return;

@@ -20,7 +20,7 @@ pub(crate) struct Setting {
 pub(crate) struct Decision {
     pub(crate) label: Index,
     pub(crate) word: FlowWord,
-    /// What stands in brackets after it.
+    /// Contents of the brackets after it.
     pub(crate) values: Vec<Expr>,
 }
 

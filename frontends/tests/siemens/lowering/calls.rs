@@ -236,7 +236,7 @@ fn repeated_blocks_find_what_they_found_the_first_time() {
     assert_eq!(faults("AA: G0 X1\nG1 X2\nREPEAT AA\n"), [] as [&str; 0]);
     assert_eq!(faults("AA: G0 X1\nMCALL CYCLE81(5,0,2,-3)\nREPEAT AA\n"), refused);
     assert_eq!(faults("AA: G2 X1 I1\nG18\nREPEAT AA\n"), refused);
-    // What was taken for granted in passing is no other mode.
+    // What was assumed in passing is no other mode.
     assert_eq!(units("AA: G0 X1\nREPEAT AA\nM30\n").1, [] as [&str; 0]);
     // After it, the modes of either end.
     assert_eq!(after_head("AA: G91 X1\nBB: X2\nG90\nREPEAT AA BB\nX3\n").pop(), Some("TRAVERSE X?3".into()));
@@ -249,7 +249,7 @@ fn ways_in_which_feeds_count_leave_their_subprogram() {
     // A time is one move's; what a feed said before does not count any more.
     assert_eq!(errors("G94 F9\nL1\nG1 X1 F2\n", "G93"), none);
     assert_eq!(errors("G94 F9\nL1\nG1 X1 F2\n", "G93\nG1 X2 F3\nG94"), none);
-    // Which feed is active after a cycle that has its own is not known; nor one that is said for no move.
+    // Which feed is active after a cycle that has its own is not known; nor one that is stated for no move.
     let last = ["NoFeed at 'M17'"];
     assert_eq!(errors("L1\nG1 X1 F2\n", "G93\nG94\nF5\nCYCLE85(5,0,2,-3,,,9,9)"), last);
     assert_eq!(errors("L1\nG1 X1 F2\n", "G93 F5\nM8"), last);

@@ -12,7 +12,7 @@ use crate::meaning::Meaning;
 use crate::schema::{Dialect, Family};
 use crate::stored::VariableName;
 
-/// Digits of a value in a message where nothing else is said (LinuxCNC 2.9, gcode/overview, comment parameters).
+/// Digits of a value in a message where nothing else is stated (LinuxCNC 2.9, gcode/overview, comment parameters).
 const VALUE_DIGITS: u8 = 6;
 
 /// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90

@@ -210,7 +210,7 @@ impl Exec {
         self.carry(before);
     }
 
-    /// The G92 shift: what was said, and of the other axes what was left over.
+    /// The G92 shift: what was stated, and of the other axes what was left over.
     pub(crate) fn origin_shift(&self) -> [Nanos; AXES] {
         let left = if self.modes.shifted { self.world.left_over_shift() } else { [0; AXES] };
         match &self.slots {

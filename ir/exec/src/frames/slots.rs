@@ -238,7 +238,7 @@ impl Frames {
         Ok(())
     }
 
-    /// Along one axis, the place that a word names, or where the tool stands.
+    /// Along one axis, the place that a word names, or where the tool is.
     fn place_of<P: Present>(
         &self,
         axis: usize,

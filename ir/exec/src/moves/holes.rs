@@ -367,7 +367,7 @@ impl Exec {
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
         let by_height = matches!(cycle.approach, Approach::RaiseFirst | Approach::ClearFirst);
         if by_height && normal == self.along && self.waiting.is_some() {
-            // Which way comes first depends on where the tool stands by the length that takes effect on it.
+            // Which way comes first depends on where the tool is by the length that takes effect on it.
             return self.fault(Fault::not_executed(CycleUnexecuted::LengthAtFirstHole), span);
         }
         if leg == Leg::Level {

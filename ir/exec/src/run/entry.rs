@@ -1,4 +1,4 @@
-//! What a program leaves to the control: facts that are taken for granted at its entry, and which of them it
+//! What a program leaves to the control: facts that are assumed at its entry, and which of them it
 //! has never said.
 
 use crate::{DISTANCE, Exec, FEED_MODE, LENGTH, Length, MOTION, PLANE, RETURN, SHIFT, UNITS, WORK};

@@ -5,7 +5,7 @@
 //! need not be executed: it is enough to know by which slots the program moves as they were left, and what it leaves
 //! in them.
 //!
-//! Not here: modes that outlive a program. What a program takes for granted of them is reported, and stated in the output.
+//! Not here: modes that outlive a program. What a program assumes of them is reported, and stated in the output.
 
 use crate::frames::frame::Length;
 use crate::{Exec, Frames};
@@ -97,7 +97,7 @@ impl Exec {
         (self.outlived.by_code, self.outlived.again) = (true, Some(at));
     }
 
-    /// The first mode that the program takes for granted at its start (`assumed`), which is not active where it begins
+    /// The first mode that the program assumes at its start (`assumed`), which is not active where it begins
     /// again, and where that is.
     pub fn begins_otherwise(&self, assumed: &Modes) -> Option<(ModeName, Span)> {
         let at = self.outlived.again?;

@@ -190,7 +190,7 @@ impl Comparison {
                 }
             }
             (Kind::Synchronised { pitch, chuck }, Kind::Synchronised { pitch: p2, chuck: c2 }) => {
-                // Where a pitch is said by feed and speed, it is as fine as the feed.
+                // Where a pitch is stated by feed and speed, it is as fine as the feed.
                 let finest = if b.state.speed == 0 {
                     0
                 } else {

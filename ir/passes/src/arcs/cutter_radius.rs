@@ -4,7 +4,7 @@
 //! number, or that of the edge (or entry) whose length is active. One stands for another where the
 //! program itself shows that they are the same place of the tables; otherwise it is refused. How the
 //! tool goes onto the contour and leaves it is each control's own: between two of them it is taken to
-//! be the same, and told once.
+//! be the same, and reported once.
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::RADIUS;

@@ -124,7 +124,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
         for (arc, level) in arcs.iter_mut().zip(levels) {
             arc.to.set(normal, absolute(rounded(level, target.decimals_in(unit), unit)));
         }
-        // The end is said from zero: an increment would count from a rounded level.
+        // The end is stated from zero: an increment would count from a rounded level.
         if let Some(end) = walk.at.target(&arc.to)[normal as usize] {
             let same = rest
                 .to

@@ -72,7 +72,7 @@ fn leave_out(body: &mut Vec<Stmt>, named: &HashSet<Text>) -> bool {
     any
 }
 
-/// Puts in what is said since the last place that is a jump target.
+/// Puts in what is stated since the last place that is a jump target.
 fn join(body: &mut [Stmt]) {
     let mut at = Tracker::unknown();
     for stmt in body {

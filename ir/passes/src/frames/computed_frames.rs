@@ -1,13 +1,13 @@
 //! Frames of programs that compute: each statement says, in the target's own form, all that is active after it.
 //!
 //! Which frame is active where a block of a loop is executed, the run alone knows, so that none is worked into
-//! coordinates, and none is said by what has changed since the one before.
+//! coordinates, and none is stated by what has changed since the one before.
 //!
 //! Where the target chains frames, a shift and a rotation are one chain: what is active of the other one is known from
 //! the stretch of blocks at hand, and that nothing is turned where a stretch begins if none ends so (`Held`).
 //!
 //! Refused: a frame that the target has no form of its own for, a shift or a rotation beside another one that is
-//! not known there, a rotation about the place where the tool stands, steps that add up but for translations of one
+//! not known there, a rotation about the place where the tool is, steps that add up but for translations of one
 //! stretch of blocks, and a move after a rotation that does not name both axes of its plane (controls do not agree about
 //! it).
 
@@ -74,7 +74,7 @@ pub fn behind_control(program: &Program) -> bool {
 /// stretches of its blocks begin.
 ///
 /// # Errors
-/// The first one that cannot be said, at its place.
+/// The first one that cannot be stated, at its place.
 fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<(), Diagnostic> {
     let mut used = Used::default();
     for (at, procedure) in program.procedures.iter().enumerate() {
@@ -117,7 +117,7 @@ struct Used {
     turns: bool,
     /// Whether a rotation that fills a slot may be active where a stretch of blocks begins.
     turned_between: bool,
-    /// Whether words are measured from where the tool stands anywhere.
+    /// Whether words are measured from where the tool is anywhere.
     increments: bool,
 }
 
@@ -194,7 +194,7 @@ fn slot_of(slot: &Slot) -> FrameSlot {
     }
 }
 
-/// What fills a slot is absolute only where the distance mode is: that is said before it, or known of all ways to it.
+/// What fills a slot is absolute only where the distance mode is: that is stated before it, or known of all ways to it.
 fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
     // Whether it is; nothing where a stretch of blocks begins.
     let mut said = None;
@@ -229,7 +229,7 @@ fn state_frames(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) 
     let mut refused = None;
     // Whether the frame before is a translation that has begun the chain again, with nothing after it.
     let mut anew = false;
-    // The translation that this stretch has said again, while it is the whole chain and worth what it was.
+    // The translation that this stretch has stated again, while it is the whole chain and worth what it was.
     let mut shift: Option<Shift> = None;
     rebuild(body, |mut stmt, made: &mut Rebuild| {
         if !is_frame(&stmt.op) {
@@ -346,7 +346,7 @@ fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, Co
     }
     let zero = |axis: usize| Expr::Num(Num::int(0, if axis < 3 { Unit::Mm } else { Unit::Degree }));
     let mut ops = Vec::new();
-    // A shift is said outside a rotation.
+    // A shift is stated outside a rotation.
     let to = |axes: &[Option<Expr>], ops: &mut Vec<Op>| {
         if used.turns {
             ops.push(Op::ClearFrame(FrameSlot::Rotation));

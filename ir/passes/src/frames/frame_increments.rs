@@ -99,7 +99,7 @@ impl FrameIncrementsState {
         FrameIncrementsState { from, to, same: alike(source) == alike(target), pending, over: false }
     }
 
-    /// Nothing is in front of the program: its caller has said all that was to be said.
+    /// Nothing is in front of the program: its caller has said all that was to be stated.
     pub fn stands_alone(&mut self) {
         self.pending = Pending::default();
     }

@@ -58,7 +58,7 @@ fn asks(target: &Computes, system: System) -> bool {
 /// The words of a cut in machine coordinates as those of the active work offset; with its number.
 ///
 /// # Errors
-/// Why that cannot be said.
+/// Why that cannot be stated.
 pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16), MachineLack> {
     let target = caps.flow.computes.as_deref().filter(|_| in_work(caps));
     let target = target.ok_or(MachineLack::Cut)?;

@@ -1,14 +1,14 @@
 //! `machine-moves`: moves in machine coordinates, and to reference points, in the target's form.
 //!
 //! Machine coordinates are measured with the tool's length on one control and without it on another. The
-//! same place is said by a move without a length, which is said again before the next that needs it; or by
+//! same place is stated by a move without a length, which is stated again before the next that needs it; or by
 //! the other form, where no length is active. A move to the machine's zero is one in machine
-//! coordinates, through the intermediate point that it names. A cut, for a control that goes rapidly alone, is said in the active work offset
+//! coordinates, through the intermediate point that it names. A cut, for a control that goes rapidly alone, is stated in the active work offset
 //! (`machine_cuts`), in which it is measured with the tool's length.
 //!
 //! Refused: a probing move of a kind that the target has not; a move that is measured with a length where the target's is not, unless there is
 //! none; other reference points that the target lacks; and Z after a return to a reference point
-//! whose length nobody has said again, where the target keeps it for certain.
+//! whose length nobody has stated again, where the target keeps it for certain.
 
 mod around;
 
@@ -357,7 +357,7 @@ fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut MachineMovesState, 
     off
 }
 
-/// The move to the intermediate point; what is left to be said is the rest of the way, in a block of its own.
+/// The move to the intermediate point; what is left to be stated is the rest of the way, in a block of its own.
 fn by_intermediate(
     detour: Stmt,
     to: &Move,

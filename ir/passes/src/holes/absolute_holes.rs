@@ -141,7 +141,7 @@ fn absolute_point(m: &mut Move, before: &Walk) -> Result<(), Fault> {
     })
 }
 
-/// The words of a hole, from where the tool stands.
+/// The words of a hole, from where the tool is.
 fn incremental_point(m: &mut Move, before: &Walk) -> Result<(), Fault> {
     Axis::ALL.into_iter().zip(&mut m.to.axes).try_for_each(|(axis, word)| {
         let Some(coord) = word.as_mut().filter(|coord| is_absolute(coord, before.at.modes.distance)) else {

@@ -35,7 +35,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
+/// Whether the cycle's way to every hole is surely this one, from the levels where the tool is.
 pub(crate) fn is_one_way(walk: &Walk, in_force: &ActiveCycle, way: Approach) -> bool {
     let cycle = &in_force.cycle;
     if length_decides(walk, cycle.approach, way) {

@@ -1,7 +1,7 @@
 //! `expand-cycles`: a canned cycle becomes its moves. This is the definition of what a cycle does.
 //!
 //! A hole, in the order of its moves:
-//! 1. to the position in the plane, at the level where the tool stands, then by rapid to the
+//! 1. to the position in the plane, at the level where the tool is, then by rapid to the
 //!    retract plane R (Fanuc 15i-M); if the tool stands below R and the cycle is
 //!    [`Approach::RaiseFirst`], up to R first (NIST RS274/NGC 3.8.1); if it is
 //!    [`Approach::RetractFirst`], to R first from above too; under [`Approach::ClearFirst`] from a hole

@@ -1,4 +1,4 @@
-//! `feed-with-cycle`: a feed that is said right before a cycle is said by the cycle.
+//! `feed-with-cycle`: a feed that is stated right before a cycle is stated by the cycle.
 //!
 //! A cycle states its feed again at every hole, so that the machine does the same. Only where
 //! nothing but remarks stands between, under the same block skip, and the cycle says no feed itself.

@@ -104,7 +104,7 @@ impl Legaliser {
         }
     }
 
-    /// The feed that has to be said again before a statement of control.
+    /// The feed that has to be stated again before a statement of control.
     fn feed_before(&mut self, control: &Stmt, behind: &[Stmt]) -> Option<Result<Stmt, Diagnostic>> {
         let Shared { states, walk, target, .. } = &mut self.shared;
         feed_unit::before_control(states.state_mut(), &walk.at, target, control, behind)
@@ -144,7 +144,7 @@ fn has_positions(body: &[Stmt]) -> bool {
     })
 }
 
-/// Whether where cycles leave the tool is said nowhere but for cycles that are activated after it, before any hole.
+/// Whether where cycles leave the tool is stated nowhere but for cycles that are activated after it, before any hole.
 /// With `bare`, holes stand under cycles that other stretches have activated.
 fn levels_with_cycles(body: &[Stmt], bare: bool) -> bool {
     let mut blocks = body.iter().enumerate().filter(|(_, stmt)| matches!(stmt.op, Op::SetReturnLevel(_)));
@@ -256,7 +256,7 @@ struct Region<'l> {
     /// Whether a cycle's return plane is one for all its positions.
     levels: bool,
     diags: &'l mut Vec<Diagnostic>,
-    /// What has been taken for granted of the origin's shift.
+    /// What has been assumed of the origin's shift.
     shift: OriginShiftState,
 }
 
@@ -332,11 +332,11 @@ impl Region<'_> {
 
     /// The place of a statement that a pass has changed though it is computed, or others rely on it.
     fn relied_on(&self, before: &[Stmt], after: &[Stmt]) -> Option<Span> {
-        // A cut that is said in a work offset is the same, less the offsets.
+        // A cut that is stated in a work offset is the same, less the offsets.
         let (before, after) = [before, after].map(without_offsets).into();
         let relies = |stmt: &&Stmt| {
             let cycle = matches!(stmt.op, drilling!() | Op::EndCycle | Op::Position(_));
-            // How corners are taken may be said with less, which is reported; nothing relies on it.
+            // How corners are taken may be stated with less, which is reported; nothing relies on it.
             let corners = matches!(stmt.op, Op::SetMotionControlMode(_));
             arguments::computed(&stmt.op) && !corners
                 || matches!(stmt.op, Op::Assign(..))

@@ -92,7 +92,7 @@ fn output(stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
     }
 }
 
-/// What is taken for granted of text for a device of another control, and what is refused: `opened` is whether it must be
+/// What is assumed of text for a device of another control, and what is refused: `opened` is whether it must be
 /// opened there.
 pub fn output_elsewhere(program: &Program, opened: bool) -> Vec<Diagnostic> {
     let (mut opens, mut line, mut value) = (false, None, None);

@@ -2,7 +2,7 @@
 //!
 //!
 //! Keeps subprograms where it can. Only those are inlined that belong to a cycle of a caller which the target
-//! says in another way, or that cannot be said by themselves.
+//! says in another way, or that cannot be stated by themselves.
 
 use crate::arcs::arc_form::ArcFormState;
 use crate::arcs::compensated_modes::CompensatedModesState;
@@ -43,7 +43,7 @@ impl Legaliser {
         self.shared.walk.assume(&assumed);
         let frames =
             self.shared.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.shared.target.caps);
-        // Where the frames can be said, subprograms stay what they are.
+        // Where the frames can be stated, subprograms stay what they are.
         let apart = frames && !expand_frames::shifts_origin_in_calls(rest, &self.shared.target.caps);
         if apart && rest.procedures.len() > 1 && self.shared.lacks & CALL == 0 {
             let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
@@ -96,7 +96,7 @@ impl Legaliser {
     }
 
     /// Subprograms get the modes active in their callers, and and only those are inlined that take a cycle from
-    /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
+    /// them, or cannot be stated. Tells whether that is done, and nothing else is left that cannot be stated.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
         let (mut given, mut reported) = (rest.clone(), Vec::new());
         self.on_program(ProgramMoment::Calls, &mut given, Subprograms::Specialise, &mut reported);

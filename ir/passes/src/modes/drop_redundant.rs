@@ -2,12 +2,12 @@
 //!
 //! That is: a setting that the program itself has activated before (units, distance mode, plane,
 //! feed mode, return level, work offset), a feed or speed that is active, the end of a cycle where
-//! a move has ended it, a rapid to where the tool stands, and words of straight moves for axes that
+//! a move has ended it, a rapid to where the tool is, and words of straight moves for axes that
 //! stand there already.
 //!
 //! Left alone: blocks that may be skipped, and whatever may differ because of them; remarks, labels,
 //! numbers of blocks that stay; spindle, coolant and tools, which an operator may have switched at a
-//! stop; words that a waiting length offset needs. What was only taken for granted at the start counts
+//! stop; words that a waiting length offset needs. What was only assumed at the start counts
 //! as unsaid.
 
 use crate::fold::fold_cycles::feed;

@@ -75,7 +75,7 @@ pub(crate) struct FeedTimeState {
     by_time: Option<FeedMode>,
     /// Whether the source has said that mode again since, so that F alone is missing.
     mode_said: bool,
-    /// F of the source, which its unit and its mode need not take away where they are said again.
+    /// F of the source, which its unit and its mode need not take away where they are stated again.
     feed: Option<Num>,
     /// The tool tip is controlled.
     tip: bool,

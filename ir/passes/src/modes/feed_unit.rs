@@ -1,9 +1,9 @@
 //! `feed-unit`: feeds are written in the unit of length active.
 //!
-//! Likewise a feed is said again before the first cut after a change of units, where it is not known that both controls
+//! Likewise a feed is stated again before the first cut after a change of units, where it is not known that both controls
 //! take the feed before for the same then (`F100.`, then `G20`: 100 mm or 100 in a minute), and after a code of what the
 //! feed counts, for targets on which such a code ends the feed even where it counts that already. Refused is a feed that
-//! would have to be said again and is not known.
+//! would have to be stated again and is not known.
 //!
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
@@ -84,7 +84,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// Whether feeds are said again after a change of units: it is not known what the target makes of them, or it makes
+/// Whether feeds are stated again after a change of units: it is not known what the target makes of them, or it makes
 /// something else of them than the source.
 pub(crate) fn says_again(target: &Target) -> bool {
     let fact = Behaviour::FeedAtUnits;
@@ -93,7 +93,7 @@ pub(crate) fn says_again(target: &Target) -> bool {
     target.caps.modes.feed_again || target.other_control && open || own.get(fact) != other.get(fact)
 }
 
-/// Feed active, and whether the units have changed since it was said, or a code has ended it.
+/// Feed active, and whether the units have changed since it was stated, or a code has ended it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FeedUnitState {
     /// The feed of the source, in the unit in which its number counts now.
@@ -122,7 +122,7 @@ impl FeedUnitState {
         FeedUnitState { feed: at.feed, by_time, lost: at.stale_feed, ..FeedUnitState::default() }
     }
 
-    /// Whether a feed waits to be said again.
+    /// Whether a feed waits to be stated again.
     pub(crate) fn is_busy(&self) -> bool {
         self.stale || self.ended || self.lost
     }
@@ -174,7 +174,7 @@ fn cuts(op: &Op) -> bool {
     }
 }
 
-/// What is said between blocks that end the feed and a structure, which is looked at by itself: the feed again, where the
+/// What is stated between blocks that end the feed and a structure, which is looked at by itself: the feed again, where the
 /// structure or what follows it takes it up.
 pub(crate) fn before_control(
     state: &mut FeedUnitState,
@@ -255,7 +255,7 @@ pub(crate) fn again(
             let mut said = Stmt::new(stmt.span, Op::SetFeedRate(feed.into()));
             (said.number, said.skip, said.joined) = (stmt.number.take(), stmt.skip, stmt.joined);
             stmt.joined = true;
-            // In a block that may be skipped it is said for that block alone.
+            // In a block that may be skipped it is stated for that block alone.
             let skipped = stmt.skip.is_some();
             (state.stale, state.ended) = (state.stale && skipped, state.ended && skipped);
             made.push(said);

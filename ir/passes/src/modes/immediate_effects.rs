@@ -46,7 +46,7 @@ pub(crate) struct ImmediateEffectsState {
     length: bool,
     /// The target's first blocks say no length, and no absolute Z has been named since.
     start: bool,
-    /// A cycle is over, and no motion has been said since.
+    /// A cycle is over, and no motion has been stated since.
     motion: bool,
 }
 
@@ -62,7 +62,7 @@ impl ImmediateEffectsState {
         self.length || self.start || self.motion
     }
 
-    /// The end of a subprogram, which returns if nothing else is said.
+    /// The end of a subprogram, which returns if nothing else is stated.
     pub(crate) fn end_of_sub(&mut self, body: &[Stmt], diags: &mut Vec<Diagnostic>) {
         let ends = |s: &&Stmt| matches!(s.op, Op::ProgramEnd | Op::BeginAgain) && s.skip.is_none();
         if let Some(last) = body.last().filter(|s| self.length && !ends(s)) {
@@ -190,13 +190,13 @@ fn goes(
     state.motion = false;
     let first = to.get(Axis::Z).filter(|_| state.start && stmt.skip.is_none());
     if first.is_some_and(|word| word.distance == Fact::Known(Distance::Incremental)) {
-        // The target's first blocks say nothing of a length then: it is taken for granted on both sides.
+        // The target's first blocks say nothing of a length then: it is assumed on both sides.
         (state.length, state.start) = (false, false);
     }
     names(to, stmt, walk, state, diags);
 }
 
-/// Axis words: an absolute Z settles where the tool stands, and another one depends on it.
+/// Axis words: an absolute Z settles where the tool is, and another one depends on it.
 fn names(
     to: &Point,
     stmt: &Stmt,

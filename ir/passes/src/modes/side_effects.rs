@@ -130,11 +130,11 @@ pub struct SideEffects {
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
 #[derive(Clone, Debug)]
 enum LengthNext {
-    /// To be said, by this operation.
+    /// To be stated, by this operation.
     Say(Op),
     /// To be asked of the source's control.
     Ask(Behaviour, Span),
-    /// To be said, and it is not known which it is.
+    /// To be stated, and it is not known which it is.
     Lost(Span),
 }
 

@@ -1,4 +1,4 @@
-//! Walking a body of statements: where the tool stands on the way, and block skip.
+//! Walking a body of statements: where the tool is on the way, and block skip.
 //!
 //! A stretch of blocks with one skip level is executed whole or not at all, so that what holds
 //! afterwards is what holds on both paths; within the stretch nothing is in doubt. A block of modes alone
@@ -23,7 +23,7 @@ pub(crate) struct Walk {
     /// A stretch that goes on where only modes come between: its level, the state where it is executed, and the
     /// state where it is skipped.
     paused: Option<(u8, Box<[Tracker; 2]>)>,
-    /// Facts taken for granted that the tracker has already.
+    /// Facts assumed that the tracker has already.
     assumed: Modes,
 }
 
@@ -156,7 +156,7 @@ impl Walk {
         });
     }
 
-    /// Takes over facts that were taken for granted since the last time.
+    /// Takes over facts that were assumed since the last time.
     pub(crate) fn assume(&mut self, assumed: &Modes) {
         if self.assumed == *assumed {
             return;

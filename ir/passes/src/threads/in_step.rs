@@ -241,7 +241,7 @@ pub(crate) fn as_cycles(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target) 
     });
 }
 
-/// The cycle that makes the same moves from where the tool stands.
+/// The cycle that makes the same moves from where the tool is.
 fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
     let Op::SynchronisedFeed(m) = &stmt.op else { return None };
     let plane = walk.at.modes.plane?;
@@ -369,7 +369,7 @@ fn said(
         (Some(_), false) if threads.turned => cannot(ThreadsLack::NotOriented),
         (Some(turn), false) if threads.back => {
             let Some(out) = way_out else {
-                // The way in: the way out, which has to come next, is said with it.
+                // The way in: the way out, which has to come next, is stated with it.
                 if before[along as usize].is_none() {
                     return Err(Fault::PositionUnknown { axis: along.letter() as char });
                 }

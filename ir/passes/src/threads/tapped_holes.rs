@@ -5,7 +5,7 @@
 //! a rapid took it there. Dwells and turns of the spindle among them are the cycle's.
 //!
 //! Left as they are, and refused later: a thread with anything else among its blocks or with one under block skip, with
-//! another feed on the way out, along several axes, or where the tool stands is not known; dwells and turns of which the
+//! another feed on the way out, along several axes, or where the tool is is not known; dwells and turns of which the
 //! target's cycle makes others. In and out in one block is `threads`'.
 
 use crate::pass::{Moment, Pass, Step};
@@ -62,7 +62,7 @@ pub(crate) fn is_half(stmt: &Stmt, target: &Target) -> bool {
     !says && !threads.any && !m.back && form(m.chuck, target).is_some()
 }
 
-/// How the target's cycle for such a thread is said.
+/// How the target's cycle for such a thread is stated.
 fn form(chuck: bool, target: &Target) -> Option<CycleForm> {
     let name = if chuck { "tap" } else { "tap-rigid" };
     target.caps.holes.cycles.iter().find(|cap| cap.kind == name).map(|cap| cap.form)

@@ -2,7 +2,7 @@
 //!
 //! Some controls take the pitch from feed and speed, others state it; some leave the spindle stopped
 //! after a rigid tap, others start it again. Where the cycle's end has to say what the cycle itself
-//! cannot, it is said there. A feed by the turn with more digits than the target writes is said by the minute. A feed that the cycle set stays active after it, as it was. After boring
+//! cannot, it is stated there. A feed by the turn with more digits than the target writes is stated by the minute. A feed that the cycle set stays active after it, as it was. After boring
 //! with a stop, one control has the spindle turn clockwise, another as it did before: where it surely
 //! turns clockwise, these are one.
 //!
@@ -74,7 +74,7 @@ pub(crate) struct TapsState {
     owed: Vec<Op>,
     /// A bore is active that relies on the spindle turning clockwise.
     clockwise: bool,
-    /// Whether a feed that is not said here has been said where control comes from.
+    /// Whether a feed that is not said here has been stated where control comes from.
     entered: bool,
     /// A tap has put its feed in the place of one that is not known.
     lost: bool,
@@ -338,7 +338,7 @@ fn by_minute(cycle: &Cycle, walk: &Walk, state: &TapsState, target: &Target) -> 
     (digits(turn) > decimals && digits(minute) <= decimals).then(|| exact(minute, unit))
 }
 
-/// Makes a tap one that the target says. Gives the feed that must be said before it, if it was changed.
+/// Makes a tap one that the target says. Gives the feed that must be stated before it, if it was changed.
 #[allow(clippy::option_option)]
 fn fit(
     cycle: &mut Cycle,

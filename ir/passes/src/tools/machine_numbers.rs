@@ -122,12 +122,12 @@ impl Renumbering {
         }
     }
 
-    /// Facts that were taken for granted, in the target's numbers.
+    /// Facts that were assumed, in the target's numbers.
     pub fn modes(&self, assumed: &Modes) -> Modes {
         self.maps.modes(assumed)
     }
 
-    /// Refuses facts that were taken for granted and that the target has no number for. `at` is where
+    /// Refuses facts that were assumed and that the target has no number for. `at` is where
     /// the program is that relies on them.
     pub fn check_modes(&mut self, assumed: &Modes, at: Span, diags: &mut Vec<Diagnostic>) {
         if let Some(number) = assumed.work_offset {

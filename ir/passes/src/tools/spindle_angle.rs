@@ -1,7 +1,7 @@
 //! `spindle-angle`: oriented spindle stop, on the target's machine.
 //!
-//! Where the zero of the angle is, is a matter of each machine: that it is in one place on both is taken for
-//! granted and told. Where the target has no stop at an angle of its own, the angle must be stated: that of the
+//! Where the zero of the angle is, is a matter of each machine: that it is in one place on both is assumed and reported.
+//! Where the target has no stop at an angle of its own, the angle must be stated: that of the
 //! source's control, if its profile says it.
 
 use crate::pass::{Moment, Pass, Step};

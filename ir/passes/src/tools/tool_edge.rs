@@ -1,9 +1,9 @@
 //! `tool-edge`: a tool's length by an edge of the tool in the spindle, or by an entry of a table.
 //!
-//! Edge 1 of tool `n` is entry `n` of the table: an assumption, told once for each tool. Of a tool whose number is not
+//! Edge 1 of tool `n` is entry `n` of the table: an assumption, reported once for each tool. Of a tool whose number is not
 //! known it stays edge 1 for a target that activates the length of the tool in the spindle without its number. Another edge
 //! has an entry only where the target's settings name one, and no other entry has an edge: else they are refused. On a
-//! control with edges a tool change makes edge 1 active by itself, so that what is active after the change is said
+//! control with edges a tool change makes edge 1 active by itself, so that what is active after the change is stated
 //! there: it moves nothing until Z is commanded, and stands right after the change where nothing commands Z between. An edge of a tool
 //! that the program has not called is left out where another follows before Z is commanded.
 
@@ -62,7 +62,7 @@ struct Waiting {
     skip: Option<u8>,
     /// The program says the edge itself.
     said: bool,
-    /// Why the edge cannot be said; told only if it is used, or said and active to the end.
+    /// Why the edge cannot be stated; told only if it is used, or said and active to the end.
     refused: Option<Fault>,
 }
 

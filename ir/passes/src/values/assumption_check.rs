@@ -1,6 +1,6 @@
-//! What a translation takes for granted of the numbers of a program, read the other way: not a pass.
+//! What a translation assumes of the numbers of a program, read the other way: not a pass.
 //!
-//! A target that compares to the least bit takes for granted that no two numbers are only nearly equal, and so does one
+//! A target that compares to the least bit assumes that no two numbers are only nearly equal, and so does one
 //! that finds these equal of a source that does not; one whose
 //! functions round towards zero, that none is below zero; one whose words have fewer digits, that what it rounds gives nothing
 //! where it adds up. Where an output differs from its source, and not from the
@@ -15,7 +15,7 @@ use ncc_ir::program::Program;
 use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
-/// What is taken for granted.
+/// What is assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assumption {
     /// Numbers that are compared are equal, or further apart than any tolerance.
@@ -37,7 +37,7 @@ impl Assumption {
     }
 }
 
-/// What the target has of which something is taken for granted.
+/// What the target has of which something is assumed.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetNumerics<'t> {
     /// Its functions.
@@ -73,7 +73,7 @@ pub fn computes_numbers(program: &Program) -> bool {
     found
 }
 
-/// The program with the other reading of what is taken for granted, for such a target; `None` where it has none.
+/// The program with the other reading of what is assumed, for such a target; `None` where it has none.
 /// Expressions are read so up to a place of the text.
 pub fn other_reading(
     program: &Program,

@@ -29,7 +29,7 @@ pub fn run(program: &mut Program, target: &Computes) {
 }
 
 /// The unit that is active wherever something is asked of the control; `None` if there are several, or some may be
-/// asked before any is said.
+/// asked before any is stated.
 fn only(program: &Program) -> Option<Units> {
     let main = &program.procedures.first()?.body;
     let head = main.iter().take_while(|stmt| !matches!(stmt.op, flow!()));
@@ -39,8 +39,8 @@ fn only(program: &Program) -> Option<Units> {
     });
     let unit = program.assumed.units.or(first)?;
     let same = Said::by(program).only() == Some(unit);
-    // Before the first word of units nothing is asked that is not asked after it, too: a unit that was taken for
-    // granted is that of the whole head.
+    // Before the first word of units nothing is asked that is not asked after it, too: a unit that was assumed
+    // is that of the whole head.
     let early = program.assumed.units.is_none()
         && main.iter().take_while(|stmt| !matches!(stmt.op, Op::UseLengthUnits(_))).any(asks);
     (same && !early).then_some(unit)

@@ -51,7 +51,7 @@ pub fn run(
     Digits { decimals, increments, seconds }: Digits,
     diags: &mut Vec<Diagnostic>,
 ) -> Renamed {
-    // A language takes what is said in it as it is.
+    // A language takes what is stated in it as it is.
     let own = from == computes;
     if !own || computes.handed != Handed::Names {
         references::copied(program);

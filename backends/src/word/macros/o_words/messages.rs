@@ -10,7 +10,7 @@ use crate::common::Sink;
 use crate::common::fault::{cannot, cannot_compute};
 use crate::word::Writer;
 
-/// Digits of values in a message where nothing is said, and of `%f`.
+/// Digits of values in a message where nothing is stated, and of `%f`.
 const DIGITS: u8 = 6;
 const FLOAT_DIGITS: u8 = 4;
 

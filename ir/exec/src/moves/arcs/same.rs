@@ -1,4 +1,4 @@
-//! Arcs that two controls make alike, so that one execution stands for both.
+//! Arcs that two controls make alike, so that one execution counts for both.
 //!
 //! ```text
 //! source: G3 X20. Y0. I10. | output: G3 X20 Y0 I10    the same arc, if both controls accept it

@@ -1,4 +1,4 @@
-//! Holes that two controls make alike, so that one execution stands for both.
+//! Holes that two controls make alike, so that one execution counts for both.
 //!
 //! ```text
 //! source: X10. Y20. under G81 | output: X10 Y20 under MCALL CYCLE81    the same strokes at the same place

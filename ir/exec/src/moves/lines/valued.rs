@@ -233,7 +233,7 @@ impl Exec {
     }
 
     /// Whether two controls make the same events of rows of a table, which count from zero and which no level of block skip
-    /// leaves out: one execution stands for both then.
+    /// leaves out: one execution counts for both then.
     pub fn agrees_on_rows(&self, other: &Exec) -> bool {
         self.counts_absolute()
             && other.counts_absolute()

@@ -49,7 +49,7 @@ fn feed_after(op: &Op, before: Option<Num>) -> Option<Num> {
     }
 }
 
-/// Whether the active feed counts before another is said.
+/// Whether the active feed counts before another is stated.
 pub(crate) fn counts(rest: &[Stmt]) -> bool {
     for stmt in rest {
         match &stmt.op {

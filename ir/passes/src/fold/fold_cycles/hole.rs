@@ -11,7 +11,7 @@ use ncc_ir::program::{Coord, Point};
 /// A hole.
 #[derive(Clone, Debug)]
 pub(super) struct Hole {
-    /// Words of its position; empty if it is made where the tool stands.
+    /// Words of its position; empty if it is made where the tool is.
     pub(super) to: Point,
     /// Level from which it is gone to.
     pub(super) from: Nanos,
@@ -209,7 +209,7 @@ pub(super) fn read(acts: &mut Acts<'_>, plane: Plane, reading: Reading) -> Resul
     }
 }
 
-/// A hole that is made where the tool stands says where that is.
+/// A hole that is made where the tool is says where that is.
 fn finish(mut hole: Hole, plane: Plane, acts: &Acts<'_>) -> Result<Hole, Unread> {
     let (first, second, _) = plane.axes();
     if hole.to.is_empty() {

@@ -12,7 +12,7 @@
 //! no more digits to write than its holes. What is in no pattern stays, or becomes a list where the
 //! target supports one that takes as many holes, from three on.
 //!
-//! Where a target's patterns begin where the tool stands, a traverse to the first hole is written
+//! Where a target's patterns begin where the tool is, a traverse to the first hole is written
 //! before the cycle: the same move that the cycle would make.
 //!
 //! Not looked through: holes that may be skipped, under a cycle in doubt, with a remark of their own
@@ -127,7 +127,7 @@ fn plane(walk: &Walk) -> Option<Plane> {
     walk.at.plane(walk.at.cycle.as_ref()?.cycle.plane)
 }
 
-/// Where the tool stands in the plane.
+/// Tool position in the plane.
 fn here(walk: &Walk) -> Option<[Nanos; 2]> {
     let (first, second, _) = plane(walk)?.axes();
     Some([walk.at.position[first as usize]?, walk.at.position[second as usize]?])

@@ -1,4 +1,4 @@
-//! Lines where all active frames are said: they stay as they are, and the tool is followed.
+//! Lines where all active frames are stated: they stay as they are, and the tool is followed.
 
 use ncc_exec::Chain;
 use ncc_ir::program::{Op, Stmt};
@@ -14,7 +14,7 @@ impl ExpandFramesState {
 }
 
 impl Set {
-    /// Whether statements are nothing but lines and feeds, and none of them needs to be changed: what is active is said as
+    /// Whether statements are nothing but lines and feeds, and none of them needs to be changed: what is active is stated as
     /// it stands, no move is asked for both axes of a plane, and a word without a distance mode of its own has one.
     fn leaves(&self, inner: &Walk, stmts: &[Stmt]) -> bool {
         let line = |op: &Op| {

@@ -1,4 +1,4 @@
-//! `expand-frames`: frames are said in the target's own form (`frame_forms`), or worked into the
+//! `expand-frames`: frames are stated in the target's own form (`frame_forms`), or worked into the
 //! coordinates.
 //!
 //! A translation moves absolute words and leaves increments alone. Rotations, factors and mirrors are
@@ -69,7 +69,7 @@ const NOTHING: f64 = 1e-12;
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ExpandFramesState {
-    /// The active frames, and where the tool stands in the program's own coordinates.
+    /// The active frames, and where the tool is in the program's own coordinates.
     framed: Option<Box<(Set, Walk, arc_form::ArcFormState)>>,
     /// Whether a chain may be active that the target says as it stands.
     chained: bool,
@@ -107,7 +107,7 @@ impl ExpandFramesState {
         }
     }
 
-    /// Facts that were taken for granted since.
+    /// Facts that were assumed since.
     pub(crate) fn assume(&mut self, assumed: &ncc_ir::canon::Modes) {
         if let Some(framed) = &mut self.framed {
             framed.1.assume(assumed);
@@ -157,9 +157,9 @@ struct Set {
     said_chain: bool,
     /// A plane of which the next move must name both axes, absolutely.
     unplaced: Option<Plane>,
-    /// Whether what is active depends on a block-skip switch; all of it has been said as it stood.
+    /// Whether what is active depends on a block-skip switch; all of it has been stated as it stood.
     lost: bool,
-    /// Frames that may be active instead of `slots`: a block-skip switch decides. All are shifts, and are said.
+    /// Frames that may be active instead of `slots`: a block-skip switch decides. All are shifts, and are stated.
     others: Vec<Slots>,
 }
 
@@ -178,14 +178,14 @@ impl Set {
 
 struct Frames<'f> {
     set: Set,
-    /// Where the tool stands as the program sees it.
+    /// Tool position as the program sees it.
     inner: Walk,
     /// Which way it came.
     arcs: arc_form::ArcFormState,
-    /// Where it stands as what is made sees it.
+    /// Tool position as what is made sees it.
     outer: &'f mut Walk,
     target: &'f Target,
-    /// Whether a chain may be active that was said as it stood, before this pass had any business.
+    /// Whether a chain may be active that was stated as it stood, before this pass had any business.
     chained: bool,
 }
 
@@ -236,7 +236,7 @@ impl Frames<'_> {
                         self.outer.step(&Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, op.clone()) });
                         self.note(op);
                     }
-                    // Where frames are said, what is made stands where the program does.
+                    // Where frames are stated, what is made stands where the program does.
                     if self.set.chain == Chain::NONE {
                         for (made, own) in self.outer.at.position.iter_mut().zip(self.inner.at.position) {
                             *made = made.or(own);
@@ -410,7 +410,7 @@ impl Frames<'_> {
             }
             return Ok(ops);
         }
-        // What can be said as it stands is, while nothing else is in the way.
+        // What can be stated as it stands is, while nothing else is in the way.
         if self.set.chain == Chain::NONE && self.set.said == self.set.slots {
             if caps.says_frame(op) {
                 self.set.said = slots.clone();
@@ -438,7 +438,7 @@ impl Frames<'_> {
     }
 
     /// The statements that take a G92 shift back where no word does: the present point gets the
-    /// coordinates that it has without one, and the local shift, which that ends, is said again.
+    /// coordinates that it has without one, and the local shift, which that ends, is stated again.
     fn origin_back(&self, slots: &Slots) -> Result<Vec<Op>, Fault> {
         if slots.is_turned() {
             return Err(cannot(FramesLack::ShiftEndInTurnedFrame));

@@ -1,5 +1,5 @@
 //! What a target forbids while a rotation, factors or a mirror are active: there they are taken back
-//! before it and said again after it.
+//! before it and stated again after it.
 //!
 //! Another work offset is such a thing. Values put into tables, and moves in machine coordinates and to
 //! reference points, which would lead the tool out of a turned frame and back, are refused.

@@ -1,5 +1,5 @@
 //! What the target's words and functions do by themselves: a rounding that ends below its least increment is taken away, a
-//! rounding up that it lacks is said by another.
+//! rounding up that it lacks is stated by another.
 
 use std::cell::Cell;
 
@@ -109,7 +109,7 @@ pub(crate) fn rounded(value: &Expr) -> Option<(Expr, u8)> {
 /// Says that lengths are rounded, where the target's words do that by themselves and the source's do not: those from
 /// zero are no further off than half the target's least increment. `increments` are the digits in mm, or degrees, and in
 /// inches. What adds up is the same where it has no more digits than that; where it may have more, that the roundings
-/// give nothing is taken for granted and told: execution tells whether it is so. Of frames and of values
+/// give nothing is assumed and reported: execution tells whether it is so. Of frames and of values
 /// for tables only those are, which have no more digits: what they move is rounded once more. Speeds and what counts must be whole anyway. Lengths stay as they
 /// are where a program goes from one unit to the other.
 pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec<Diagnostic>) {
