@@ -1,8 +1,8 @@
 //! Lowering of the program's own flow: loops, alternatives, labels and jumps.
 //!
-//! A structure is one statement when it has ended; what stands in it is taken out of the statements before. At a jump target
-//! (a label that a jump names, the head and the end of a loop) every fact is lost,
-//! as after a call. After an alternative, what both branches leave is known.
+//! A structure becomes one statement when it ends; its body is taken out of the statements before. At a jump target
+//! (a label that a jump names, the head and the end of a loop) every fact is lost, as after a call. After an IF, the
+//! facts are those that both branches leave.
 //!
 //! A jump looks for its label in its direction, the nearest first, and labels may stand there twice. Which label is
 //! meant is found when the program has been read; labels of one name then get names of their own.

@@ -1,7 +1,7 @@
 //! Lowering of what is computed: words with expressions, assignments, jumps, loops and macro calls.
 //!
-//! At a jump target (a block that jumps name, the head of a loop, after its end) every
-//! fact is lost, as after a call. A word whose variable was never set is left out when the program runs.
+//! At a jump target (a block that jumps name, the head of a loop, after its end) every fact is lost, as after a call.
+//! A word with an empty variable is left out at run time.
 //!
 //! Not here: which expressions there are (`formula`), and their values.
 

@@ -1,4 +1,4 @@
-//! A program made ready to be run: its procedures as steps one after the other, between which control goes.
+//! A program lowered for execution: a flat list of steps with resolved jump targets.
 //!
 //! Names of procedures, labels and variables are looked up here, once. Not here: running (`run`).
 

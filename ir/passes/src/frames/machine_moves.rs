@@ -1,14 +1,14 @@
 //! `machine-moves`: moves in machine coordinates, and to reference points, in the target's form.
 //!
-//! Machine coordinates are measured with the tool's length on one control and without it on another. The
-//! same place is stated by a move without a length, which is stated again before the next that needs it; or by
-//! the other form, where no length is active. A move to the machine's zero is one in machine
-//! coordinates, through the intermediate point that it names. A cut, for a control that goes rapidly alone, is stated in the active work offset
-//! (`machine_cuts`), in which it is measured with the tool's length.
+//! One control measures machine coordinates with the tool length, another without it. The pass cancels the length
+//! offset for such a move, and activates it again before the next move that needs it. Where no length is active, it
+//! writes the other form. A return to machine zero becomes a move in machine coordinates, through its intermediate
+//! point. Where the target's machine coordinates allow rapid moves only, a cut is written in the active work offset
+//! (`machine_cuts`), which includes the tool length.
 //!
-//! Refused: a probing move of a kind that the target has not; a move that is measured with a length where the target's is not, unless there is
-//! none; other reference points that the target lacks; and Z after a return to a reference point
-//! whose length nobody has stated again, where the target keeps it for certain.
+//! Refused: a probing move of a kind that the target lacks; a move measured with a length, where the target's is
+//! measured without, unless none is active; reference points that the target lacks; and Z after a reference point
+//! return without a new length offset, where the target keeps the length for certain.
 
 mod around;
 

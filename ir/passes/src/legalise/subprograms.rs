@@ -1,8 +1,7 @@
-//! Subprograms, brought within a target's capabilities: as they are, with the modes active in their callers, or inlined.
+//! Legalises subprograms: keeps them, with the modes active in their callers, or inlines them.
 //!
-//!
-//! Keeps subprograms where it can. Only those are inlined that belong to a cycle of a caller which the target
-//! says in another way, or that cannot be stated by themselves.
+//! Inlined are only subprograms that belong to a cycle of a caller which the target writes differently, and those
+//! that the target cannot write by themselves.
 
 use crate::arcs::arc_form::ArcFormState;
 use crate::arcs::compensated_modes::CompensatedModesState;

@@ -1,11 +1,10 @@
 //! Must-analysis: writes into each statement the facts that hold on every path to it, through loops, branches, jumps and calls.
 //!
-//! What is active at the head of a loop is what is so before it and after each iteration; at a label, where every jump
-//! to it comes from; in a subprogram, at every call. Found by going through the program until nothing changes. What
-//! positions do that only a caller knows stays as it is. What holds where a stretch of blocks begins is kept for those
-//! who go on from there. A hole in a loop or after a label at which one cycle is active, as it was activated,
-//! activates it by itself: where control goes, a target may leave none active. A call that has served only such
-//! holes is left out.
+//! Paths merge at the head of a loop (before it, after each iteration), at a label (every jump to it) and at the start
+//! of a subprogram (every call). The analysis runs to a fixed point. Positions whose effect only a caller knows stay as
+//! they are. The facts at the start of each stretch of blocks are kept for later passes. Where one cycle is active at a
+//! hole in a loop or after a label, the hole activates it again, since a target may leave none active after a jump. A
+//! cycle call that served only such holes is left out.
 //!
 //! Not here: values of variables.
 

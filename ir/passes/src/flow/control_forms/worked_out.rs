@@ -1,11 +1,11 @@
 //! Functions that the target lacks, computed by branches in blocks before the one that needs them: the
 //! lesser and the greater of two values, rounding up where only cutting off is known, the value of a condition where
-//! it is no number, the base of a power, which is written as a product, and angles by the arc cosine.
+//! it is no number, the base of a power, which becomes a product, and angles by the arc cosine.
 //!
 //! `#1 = MAX[#2, #3]` is `#1 = #2` and `IF [#1 LT #3] THEN #1 = #3`: nothing is computed that the function does not
 //! compute. An angle that the target gives from 0 to a turn, as `#1 = ATAN[#2]/[#3]`, is taken back by a turn where it is
-//! more than half of one. Angles of sines and tangents are those of cosines where these are as fine as the numbers are, to 13 digits. A value that stands in a word, in a condition or among arguments is computed in a
-//! variable of its own; what a loop asks before its turns is computed before the loop and at the end of each iteration.
+//! more than half of one. Sines and tangents use the arc cosine, to 13 digits. A value in a word, a condition or an
+//! argument gets its own variable. A loop condition is computed before the loop and at the end of each iteration.
 //!
 //! What stays as it is, and is refused as what it is: functions in blocks with block skip, or after assignments in
 //! the same block, and in conditions of loops of which a turn is left.
