@@ -2,7 +2,7 @@
 //!
 //! A back-end writes what it is given, block by block, with the words of the dictionary. It never
 //! interprets: what its dialect cannot say has been expanded by passes before, and what still
-//! cannot be said is a diagnostic at the statement's place.
+//! cannot be stated is a diagnostic at the statement's place.
 //!
 //! ```text
 //! STRAIGHT_FEED(X 10.5mm) & SET_FEED_RATE(100mm)    `G1 X10.5 F100.`

@@ -10,7 +10,7 @@
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
-/// Most places that wait for lines; of more, neighbours are told as one.
+/// Most places that wait for lines; of more, neighbours are reported as one.
 const MOST_CARRIED: usize = 256;
 
 /// Lines that follow one another and come from the same places.
@@ -19,7 +19,7 @@ pub struct Origin {
     /// How many lines.
     pub lines: u32,
     /// The places, in the order of the text; the last one is the block that was being written. Empty for
-    /// what the source does not say: frames, a safe start of facts taken for granted.
+    /// what the source does not say: frames, a safe start of facts assumed.
     pub spans: Vec<Span>,
 }
 
@@ -34,7 +34,7 @@ pub(crate) struct Trace {
     carried: Vec<Span>,
     /// Bytes of the text of which the lines are counted.
     counted: usize,
-    /// Bytes of the text that waits behind a safe start of which the lines are counted.
+    /// Bytes of the text that waits after a safe start of which the lines are counted.
     held_counted: usize,
     /// Lines that wait there.
     held: Vec<Origin>,
@@ -143,7 +143,7 @@ impl Trace {
     }
 }
 
-/// Line ends of a text from a place on, which is moved behind them.
+/// Line ends of a text from a place on, which is moved after them.
 fn ends(text: &[u8], from: &mut usize) -> u32 {
     let fresh = text.get(*from..).unwrap_or_default();
     *from = text.len();

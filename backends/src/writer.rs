@@ -122,8 +122,8 @@ impl Writer {
     }
 
     /// Says what program it is, of those that compute, before any of it is written, and the places of statements
-    /// whose words say their own distance mode, where others rely on the one in force. `stands` are modes that are in
-    /// force where stretches of blocks begin, by the places of their first statements.
+    /// whose words say their own distance mode, where others rely on the active one. `stands` are modes that are active
+    /// where stretches of blocks begin, by the places of their first statements.
     pub fn know(&mut self, program: &Program, word_distance: &BTreeSet<u32>, entries: HashMap<u32, Modes>) {
         match &mut self.kind {
             Kind::Word(writer) => writer.know(program, entries),
@@ -133,19 +133,19 @@ impl Writer {
         }
     }
 
-    /// Says which modes are in force where stretches of blocks begin, by the places of their first statements, in a
+    /// Says which modes are active where stretches of blocks begin, by the places of their first statements, in a
     /// program that does not compute.
     pub fn know_modes(&mut self, program: &Program, entries: HashMap<u32, Modes>) {
         match &mut self.kind {
             Kind::Word(writer) => writer.words.know_modes(entries),
             Kind::Siemens(writer) => writer.know_modes(&program.procedures, entries),
-            // The text form says what is in force with every word; the other writes no subprograms.
+            // The text form says what is active with every word; the other writes no subprograms.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }
     }
 
-    /// Says that the program is called by another, before any of it is written: what is in force is its caller's, and
-    /// of that this is taken for granted. By `name` it is called.
+    /// Says that the program is called by another, before any of it is written: what is active is its caller's, and
+    /// of that this is assumed. By `name` it is called.
     pub fn stands_alone(&mut self, taken: &Modes, moves_end_cycles: bool, name: &str) {
         match &mut self.kind {
             Kind::Word(writer) => {
@@ -181,7 +181,7 @@ impl Writer {
         }
     }
 
-    /// Writes further statements of the main procedure. `assumed` are the facts taken for granted
+    /// Writes further statements of the main procedure. `assumed` are the facts assumed
     /// so far.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let start = self.begin(out);

@@ -110,10 +110,16 @@ const ROWS: &[Row] = &[
     },
     Row { name: "X= words, siemens", from: "siemens", to: "fanuc", lines: &["Y={y} {}"], ..PLAIN },
     Row { name: "rotary axis", head: "G0 A0.", lines: &["{} A{a}."], ..PLAIN },
-    Row { name: "feed by time", head: "G1 X0. Y0. F100\nG93", lines: &["{} F{f}."], foot: "G94", ..PLAIN },
+    Row {
+        name: "inverse-time feed",
+        head: "G1 X0. Y0. F100\nG93",
+        lines: &["{} F{f}."],
+        foot: "G94",
+        ..PLAIN
+    },
     Row { name: "rotation", head: "G68 X0. Y0. R30.", foot: "G69", ..PLAIN },
     Row { name: "local shift", head: "G52 X10. Y5.", foot: "G52 X0. Y0.", ..PLAIN },
-    Row { name: "shift of the origin", head: "G92 X10. Y5.", ..PLAIN },
+    Row { name: "G92 shift", head: "G92 X10. Y5.", ..PLAIN },
     Row { name: "TRANS", from: "siemens", to: "fanuc", head: "TRANS X10 Y5", foot: "TRANS", ..PLAIN },
     Row {
         name: "holes G81",

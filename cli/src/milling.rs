@@ -28,7 +28,7 @@ pub(crate) enum Voice {
 /// Opens a program, and reports on `err` that it refuses a program that is not for a mill.
 ///
 /// # Errors
-/// It cannot be read. Or it is not for a mill: such a problem has been told, and has no words of its own.
+/// It cannot be read. Or it is not for a mill: such a problem has been reported, and has no words of its own.
 pub(crate) fn open(
     path: &Path,
     voice: Voice,

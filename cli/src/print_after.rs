@@ -22,8 +22,8 @@ pub(crate) fn name(text: &str) -> Result<String, String> {
     }
 }
 
-/// Prints on stderr what stands behind a pass, as long as the watch lives. A program that streams is shown in its pieces,
-/// a procedure by itself; so are trials that come to nothing.
+/// Prints on stderr the program after a pass, as long as the watch lives. A program that streams is shown in its pieces,
+/// a procedure by itself; so are trials that give nothing.
 pub(crate) fn print_after(wanted: String) -> Watch {
     watch(Box::new(move |pass, stmts| {
         let Some(form) = builtin("ir").filter(|_| wanted == ALL || wanted == pass) else { return };
@@ -32,7 +32,7 @@ pub(crate) fn print_after(wanted: String) -> Watch {
         let mut found = Vec::new();
         writer.write(stmts, &Modes::default(), &mut text, &mut found);
         writer.finish(&mut text, &mut found);
-        // What cannot be told changes nothing about what is done.
+        // What cannot be reported changes nothing about what is done.
         let _ = io::stderr().lock().write_all(&text);
     }))
 }

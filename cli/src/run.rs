@@ -115,7 +115,7 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
             Some(page) => print(page),
             None => Err(Problem::usage(
                 format!("there is no message `{}`", args.code),
-                "a code looks like NC0107; it stands in brackets at the beginning of a message",
+                "a code looks like NC0107; it is in brackets at the beginning of a message",
             )),
         },
         Verb::Completions(args) => {
@@ -189,7 +189,7 @@ fn ended(done: Result<Exit, Problem>, err: &mut dyn WriteColor) -> Exit {
     done.unwrap_or_else(|problem| fail(&problem, err, false))
 }
 
-/// Takes up a torn arrow if it is certain that it is one.
+/// Joins a torn arrow if it is certain that it is one.
 fn honour(said: Said, known: &DialectRegistry) -> Result<(Vec<OsString>, Option<&'static Dialect>), Problem> {
     let (from, typed, rest) = match said {
         Said::Plain(arguments) => return Ok((arguments, None)),

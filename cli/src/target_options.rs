@@ -51,7 +51,7 @@ pub(crate) struct TargetOptions {
 }
 
 impl TargetOptions {
-    /// What the command line says. Faults of profiles are told.
+    /// What the command line says. Faults of profiles are reported.
     ///
     /// # Errors
     /// A dialect or a machine is missing, unknown or at odds with the other; an option is none of the

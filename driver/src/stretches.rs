@@ -253,7 +253,7 @@ mod tests {
         assert_eq!(body, own);
     }
 
-    /// Increments are no stretch, whether the text says that they are or what is in force where it is executed.
+    /// Increments are no stretch, whether the text says that they are or what is active where it is executed.
     #[test]
     fn increments_are_not_packed() {
         let moves: String = (0..200).map(|n| format!("X{n}.5\n")).collect();
@@ -350,7 +350,7 @@ mod tests {
         other != *stmt
     }
 
-    /// One of its shapes that is said in two ways, or with another number, is a change.
+    /// One of its shapes that is stated in two ways, or with another number, is a change.
     #[test]
     fn shapes_that_are_not_said_alike_are_seen() {
         let mut body = read(&format!("{HEAD}{}", computed()));

@@ -217,7 +217,7 @@ impl Verifier {
         self.read_back(&Modes::default())
     }
 
-    /// The source control's parameters of cycles are taken for granted of both controls.
+    /// The source control's parameters of cycles are assumed of both controls.
     fn take_parameters(&mut self, job: &Job) {
         let all = self.runs.iter_mut().chain(&mut self.others);
         all.flat_map(|run| [&mut run.source, &mut run.target]).for_each(|exec| with_parameters(exec, job));
@@ -233,8 +233,8 @@ impl Verifier {
         })
     }
 
-    /// What the passes have taken for granted of both controls, and patterns that they have folded:
-    /// their holes are where the source writes them to half a unit of its own last digit.
+    /// What the passes have assumed of both controls, and patterns that they have folded:
+    /// their holes are where the source writes them to half its own least increment.
     pub fn take(&mut self, found: &[Diagnostic], job: &Job) {
         debug_assert!(self.holes_ahead.is_none(), "the source is executed after this");
         let mut parameters = false;
@@ -277,7 +277,7 @@ impl Verifier {
     }
 
     /// A piece of which the text is to say the source's statements one by one: executes and compares
-    /// both. Plain moves that are read back as they were said are executed once by controls in one
+    /// both. Plain moves that are read back as they were stated are executed once by controls in one
     /// state, because both do the same.
     pub fn piece(
         &mut self,
@@ -378,7 +378,7 @@ impl Verifier {
         Ok(())
     }
 
-    /// Whether the text just read says plain moves as they were said, and all controls are level.
+    /// Whether the text just read says plain moves as they were stated, and all controls are level.
     fn same_plain(&self, said: &[Stmt]) -> bool {
         self.others.is_empty()
             && self.runs.iter().all(|run| run.level)
@@ -451,7 +451,7 @@ impl Verifier {
         self.stood = true;
     }
 
-    /// Decisions that go one way alone, which has been told where they stand.
+    /// Branches with one covered side, which has been reported where they stand.
     pub fn answered(&mut self, decisions: Vec<Span>) {
         self.answered = decisions;
     }
@@ -467,7 +467,7 @@ impl Verifier {
             return Err(Stop::Source(Diagnostic::new(Fault::lacks(lack), self.last)));
         }
         for run in self.runs.iter_mut().chain(&mut self.others) {
-            // What the text itself takes for granted goes before what it inherits.
+            // What the text itself assumes goes before what it inherits.
             run.target.assume(&own);
             run.target.assume(inherited);
         }

@@ -61,7 +61,7 @@ pub(crate) fn open(
     let mut source = Source::of(Cursor::new(text.clone()), name);
     let Some(refusal) = not_milling::refusal(&mut source, milling)? else { return Ok(source) };
     refusal.print(messages).map_err(|e| Problem::file("read", name, &e))?;
-    // It has been told.
+    // It has been reported.
     Err(Problem { exit: Exit::Refused, message: String::new(), help: Vec::new() })
 }
 
@@ -224,7 +224,7 @@ fn side_with(one: &One, files: &Files, called: &Files, messages: &mut Buffer) ->
     Ok(side)
 }
 
-/// How a program is executed and timed, and what that takes for granted of its machine.
+/// How a program is executed and timed, and what that assumes of its machine.
 pub(crate) fn plan<'p>(job: &'p Job, profile: Option<&Profile>) -> (Plan<'p>, Vec<AssumedFact>) {
     let model = Model::default();
     let (machine, assumed) = profile.map(Profile::machine).unwrap_or_default().assumed(model);

@@ -65,7 +65,7 @@ struct Executed {
     around: Surroundings,
 }
 
-/// Executes a program; `None` where it was refused, which has been told.
+/// Executes a program; `None` where it was refused, which has been reported.
 fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Executed>, Problem> {
     let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
     let profile = machine_of(one, files)?;
@@ -128,7 +128,7 @@ fn body(text: &str, files: &Files) -> Result<Stock, Problem> {
     }
 }
 
-/// A body of a row of a project file; none where its file is not at hand, which has been told.
+/// A body of a row of a project file; none where its file is not at hand, which has been reported.
 fn stated_body(text: &str, files: &Files, messages: &mut Buffer) -> Result<Option<Stock>, Problem> {
     match raw::stated(text) {
         Ok(raw::Stated::File(name)) if !files.contains_key(&name) => warn(&name, messages).map(|()| None),
@@ -210,7 +210,7 @@ pub(crate) fn simulate(
     Ok((if is_sound { Exit::Done } else { Exit::Refused }, outputs))
 }
 
-/// Cuts a program that was executed and tells its alarms; `None` where it was refused, which has been told.
+/// Cuts a program that was executed and tells its alarms; `None` where it was refused, which has been reported.
 fn carry_out(
     one: &One,
     mut executed: Executed,

@@ -34,7 +34,7 @@ fn names(text: &str, from: &str) -> Vec<String> {
         .collect()
 }
 
-/// The text with another name, or what is told.
+/// The text with another name, or what is reported.
 fn renamed(text: &str, from: &str, line: usize, column: usize, to: &str) -> Result<String, String> {
     let request = format!(
         r#"{{ "verb": "rename", "file": "part.nc", "from": "{from}", "line": {line}, "column": {column}, "to": "{to}" }}"#
@@ -233,7 +233,7 @@ fn a_project_file_is_read_back() {
     assert_eq!(engine.run(r#"{ "verb": "stated", "file": "part.nc", "project": "ncc.toml" }"#), 1);
 }
 
-/// A profile and a body that a project file names, and that no file is, are told; nothing else fails with them.
+/// A profile and a body that a project file names, and that no file is, are reported; nothing else fails with them.
 #[test]
 fn what_a_project_file_names_may_be_away() {
     let project = "[[programs]]\nfiles = \"part.nc\"\nmachine = \"machines/ours.toml\"\nstock = \"models/raw.stl\"\n\

@@ -106,7 +106,7 @@ fn a_sinumerik_has_its_own_words() {
     assert_eq!(modes.line(7).as_deref(), Some("G1 G17 G90 G94 mm G40 G54 M4 M8 D2 F100 S900 \"MILL\""));
 }
 
-/// A line that is passed several times is told by its first pass; each move has its own.
+/// A line that is passed several times is reported by its first pass; each move has its own.
 #[test]
 fn a_loop_has_the_modes_of_each_move() {
     let text = "%\nO1\nG21 G17 G90 G94 G40 G49 G80 G54\nS100 M3\nG0 X0. Y0. Z0.\n#1=1\nWHILE[#1LE3]DO1\n\

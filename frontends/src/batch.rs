@@ -29,7 +29,7 @@ pub struct Batch {
     /// The program's own name, as far as read.
     pub name: ProgramName,
     /// Every fact that the program has relied on so far without having said it, with the value
-    /// taken for granted; grows, and is not to be drained.
+    /// assumed; grows, and is not to be drained.
     pub assumed: Modes,
     /// Set with the first call, label, jump or loop: from there on the program must be kept whole.
     pub whole: bool,

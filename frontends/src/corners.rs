@@ -1,6 +1,6 @@
 //! Plain rounding, where somebody has stated how far it leaves the path.
 //!
-//! A control rounds corners by what its axes lag behind, or up to a setting. No program says how far that is; the option
+//! A control rounds corners by the lag of its axes, or up to a setting. No program says how far that is; the option
 //! `path_tolerance` does. Then a program of that control means rounding within that length, and says so to a control
 //! that would go as far from the path as its acceleration asks for.
 
@@ -15,7 +15,7 @@ use ncc_ir::program::{Op, PathControl, Stmt};
 pub(crate) struct Corners {
     /// How far from the path, mm.
     within: Num,
-    /// Whether it is in force where a program begins, and that has not been said yet.
+    /// Whether it is active where a program begins, and that has not been stated yet.
     at_start: bool,
     /// Whether lengths are in inches.
     inch: bool,
@@ -39,7 +39,7 @@ impl Corners {
         Op::SetMotionControlMode(Box::new(PathControl { within, ..PathControl::plain(PathMode::Tolerance) }))
     }
 
-    /// States it in further statements of the main procedure, from `first` on; `units` are those taken for granted.
+    /// States it in further statements of the main procedure, from `first` on; `units` are those assumed.
     pub(crate) fn state(&mut self, stmts: &mut Vec<Stmt>, first: usize, units: Option<Units>) {
         if self.at_start && units.is_some() {
             self.inch = units == Some(Units::Inch);

@@ -1,5 +1,5 @@
-//! How a program begins, as far as it relies on it and never says it: the dictionary's state at power-on, taken for
-//! granted and told where the program first relies on it.
+//! How a program begins, as far as it relies on it and never says it: the dictionary's state at power-on, assumed and reported
+//! where the program first relies on it.
 //!
 //! A subprogram begins as its caller leaves things. What it relies on is known when the whole text has been read:
 //! where no text on the way from the program's start to it has said a mode, it is how the program begins.
@@ -31,7 +31,7 @@ pub(crate) fn take<T: Copy, U: Copy + From<T>>(
     (!row.always).then_some(value)
 }
 
-/// Tells what was taken for granted, if it is not always so.
+/// Tells what was assumed, if it is not always so.
 pub(crate) fn report(out: &mut Batch, at: Span, fact: ModeName, value: Option<&str>) {
     if let Some(value) = value {
         out.report(Fault::AssumedMode { fact, value: value.into() }, at);
@@ -112,7 +112,7 @@ pub(crate) fn return_level(know: &mut Know<ReturnLevel>, dialect: &Dialect, at: 
     report(out, at, ModeName::ReturnLevel, value);
 }
 
-/// The work offset in force.
+/// The active work offset.
 pub(crate) fn work_offset(know: &mut Know<u16>, dialect: &Dialect, at: Span, out: &mut Batch) {
     let Some(offset) = take(know, &mut out.assumed.work_offset, &dialect.power_on.work_offset) else {
         return;
@@ -180,7 +180,7 @@ const fn bit(mode: ModeName) -> ModeSet {
     }
 }
 
-/// What the texts of a program find in force, and hand on to those that they call.
+/// What the texts of a program find active, and hand on to those that they call.
 #[derive(Debug, Default)]
 pub(crate) struct Inherited {
     main: Own,
@@ -189,7 +189,7 @@ pub(crate) struct Inherited {
     in_sub: bool,
 }
 
-/// What one text finds in force, and hands on.
+/// What one text finds active, and hands on.
 #[derive(Debug, Default)]
 struct Own {
     /// Modes that it relies on as it finds them, and where it first does.
@@ -290,7 +290,7 @@ impl Inherited {
         }
     }
 
-    /// The text is over: takes for granted what subprograms find as the program began.
+    /// The text is over: assumes what subprograms find as the program began.
     pub(crate) fn settle(&self, dialect: &Dialect, out: &mut Batch) {
         let mut places: HashMap<&Text, Vec<usize>> = HashMap::new();
         for (at, (name, _)) in self.subs.iter().enumerate() {

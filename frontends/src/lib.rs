@@ -106,8 +106,8 @@ impl Reader {
         Reader { family, corners }
     }
 
-    /// The program of the text is called by another, states nothing of what its caller has in force, and goes back to
-    /// it: what the text never says is taken for granted from here on, as of a source.
+    /// The program of the text is called by another, states nothing of the modes active in its caller, and returns to
+    /// it: what the text never says is assumed from here on, as of a source.
     pub fn called(&mut self) {
         if let Some(corners) = &mut self.corners {
             corners.called();
@@ -128,7 +128,7 @@ impl Reader {
         }
     }
 
-    /// For a text of which modes are known from elsewhere: what it takes for granted of its control besides them is
+    /// For a text of which modes are known from elsewhere: what it assumes of its control besides them is
     /// reported all the same. Of the Sinumerik's language; the writers of the others report it.
     pub fn report_parameters(&mut self) {
         match &mut self.family {
@@ -200,7 +200,7 @@ impl Reader {
         if settled { out.stmts.len() } else { 0 }
     }
 
-    /// Reads a text that is there, as [`Reader::read`] does, and shows what is read of it behind each piece of so many
+    /// Reads a text that is there, as [`Reader::read`] does, and shows what is read of it after each piece of so many
     /// bytes, with how many statements are [settled](Reader::settled).
     pub fn read_showing(&mut self, text: &[u8], base: u32, out: &mut Batch, shown: Shown) {
         match &mut self.family {

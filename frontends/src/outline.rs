@@ -20,9 +20,9 @@ pub enum Flow {
         /// Whether it is part of a structure (a loop, an alternative) that may lead to it by itself.
         frames: bool,
     },
-    /// A jump, in the block that was told last.
+    /// A jump, in the block that was given last.
     Jump {
-        /// Where to; `None` is computed.
+        /// Target of the jump; `None` is computed.
         to: Option<String>,
         /// Its place.
         at: Span,
@@ -64,7 +64,7 @@ pub enum PieceKind {
     Name,
     /// An operator, a bracket, a comma; one or two characters.
     Sign,
-    /// The mark of a block that can be skipped, with its level if that is part of the mark.
+    /// The mark of a block with block skip, with its level if that is part of the mark.
     Skip,
     /// What is to stay byte for byte: a string, a name in angle brackets, output of text.
     Kept,

@@ -1,8 +1,8 @@
-//! A text taken apart without loss: for somebody who lays it out anew and must not change what it says.
+//! A text taken apart without loss: for somebody who lays it out again and must not change what it says.
 //!
 //! Lines come one after the other, because what a line is depends on those before it: a mark that closes
 //! the program, a unit that is none. Of a block, every byte but blanks belongs to one piece. A line that
-//! the dialect's lexer cannot take apart is told as such, never guessed at. Not here: what words mean,
+//! the dialect's lexer cannot take apart is reported as such, never guessed at. Not here: what words mean,
 //! and how they should look.
 
 use ncc_dialects::{Family, Settings};

@@ -66,21 +66,21 @@ behaviours! {
     /// Where Z goes before M06 changes the tool, and stays: nowhere, or to machine zero.
     ZAtChange = "z-at-change", "Z at a tool change", ["stays", "machine-zero"], Machine;
     /// The length of the tool after a return to the reference point along Z: it counts again with the next move of Z, or
-    /// not before it is called up anew.
+    /// not before it is activated again.
     LengthAfterReturn = "length-after-return", "tool length after a reference point return", ["returns", "cancelled"], Machine;
     /// The same after a move in machine coordinates along Z.
     LengthAfterMachineMove = "length-after-machine-move", "tool length after a move in machine coordinates", ["returns", "cancelled"], Machine;
     /// What a dwell counts under a feed per revolution: seconds, or turns of the spindle.
     DwellPerRevolution = "dwell-per-revolution", "dwell under a feed per revolution", ["seconds", "turns"], Machine;
-    /// A local shift (G52, TRANS) that is in force at M02 and M30: the next program begins with it, or without.
+    /// A local shift (G52, TRANS) that is active at M02 and M30: the next program begins with it, or without.
     ShiftAtEnd = "shift-at-end", "local shift at the program end", ["kept", "cancelled"], AtEnd;
-    /// The same of a shift of the origin (G92).
-    OriginAtEnd = "origin-at-end", "shift of the origin at the program end", ["kept", "cancelled"], AtEnd;
+    /// The same of a G92 shift.
+    OriginAtEnd = "origin-at-end", "G92 shift at the program end", ["kept", "cancelled"], AtEnd;
     /// The same of a rotation, scale and mirror that a program has programmed (G68, G51, G51.1).
     RotationAtEnd = "rotation-at-end", "rotation, scale and mirror at the program end", ["kept", "cancelled"], AtEnd;
     /// The spindle at M02 and M30.
     SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
-    /// The active F behind a change between millimetres and inches: the same feed, or the same number in the new unit.
+    /// The active F after a change between millimetres and inches: the same feed, or the same number in the new unit.
     FeedAtUnits = "feed-at-units", "F after a change of units", ["same-feed", "same-number"], Machine;
     /// What F counts where linear and rotary axes move together: the way of X, Y and Z; a degree as a unit of length; or
     /// the way of the rotary axis at a diameter that is set on the machine.
@@ -93,11 +93,11 @@ behaviours! {
     FeedOnArcs = "feed-on-compensated-arcs", "F on arcs under cutter compensation", ["centre", "contour", "inside"], Machine;
     /// Coolant at M02 and M30.
     CoolantAtEnd = "coolant-at-end", "coolant at the program end", ["does-not", "stops"], Nothing;
-    /// Along which axis the length of a tool lies: Z whatever the plane, or the one at right angles to the plane in force.
+    /// Along which axis the length of a tool lies: Z whatever the plane, or the one at right angles to the active plane.
     LengthAxisInPlane = "length-axis-in-plane", "tool length in G18 and G19", ["z", "normal"], Machine;
-    /// Along which axis a length is taken up: Z, or the one at right angles to the plane in which it is called up.
-    LengthAxisAtCall = "length-axis-at-call", "tool length called up in G18 or G19", ["z", "normal"], Machine;
-    /// How far and which way round an absolute word turns a rotary axis: as far as its number says, the shortest way to
+    /// Along which axis a length takes effect: Z, or the one at right angles to the plane in which it is activated.
+    LengthAxisAtCall = "length-axis-at-call", "tool length activated in G18 or G19", ["z", "normal"], Machine;
+    /// How far and in which direction an absolute word turns a rotary axis: as far as its number says, the shortest way to
     /// that angle, or to that angle in the direction of the sign.
     RotaryTurn = "rotary-turn", "turn of a rotary axis by an absolute word", ["as-programmed", "shortest", "sign"], Machine;
     /// Digits of an incremental word below the least increment: they count, or are cut off word by word.
@@ -108,7 +108,7 @@ behaviours! {
     /// Which tool M06 puts in where a T is in its block and another tool waits since an earlier T: the one that the
     /// block names, or the one that waits. Then the T of the block selects the next.
     ToolWithChange = "tool-with-change", "T in the block of M06", ["named", "waiting"], Machine;
-    /// A tool length that is called up or cancelled in a block without a word of its axis: the next word is measured
+    /// A tool length that is activated or cancelled in a block without a word of its axis: the next word is measured
     /// with it, or the axis moves by the difference at once. At a place of the machine no length counts.
     LengthWithoutAxis = "length-without-axis", "tool length in a block without Z", ["waits", "moves"], Machine;
     /// Common variables at M02 and M30: the next program finds in them what this one has left, or nothing.

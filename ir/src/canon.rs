@@ -482,7 +482,7 @@ impl<T> From<Option<T>> for Fact<T> {
 }
 
 /// Modal facts: `None` means not known. One type for what a control has at power-on, what a program
-/// has said so far, and what a translation took for granted.
+/// has stated so far, and what a translation assumed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Modes {
     /// What bare axis words do.
@@ -497,11 +497,11 @@ pub struct Modes {
     pub feed_mode: Option<FeedMode>,
     /// Where a canned cycle leaves the tool.
     pub return_level: Option<ReturnLevel>,
-    /// Work offset in force: 1 is the first (G54 on a Fanuc).
+    /// Work offset active: 1 is the first (G54 on a Fanuc).
     pub work_offset: Option<u16>,
-    /// Entry of the tool-length table in force; 0 is none.
+    /// Entry of the tool-length table active; 0 is none.
     pub length_offset: Option<u32>,
-    /// Whether there is no temporary shift of the origin (`true`), or one may be left over.
+    /// Whether there is no G92 shift (`true`), or one may be left over.
     pub no_origin_shift: Option<bool>,
 }
 

@@ -37,7 +37,7 @@ impl Kind {
 /// What a control refuses there, a bit for each [`Kind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Refused {
-    /// Of codes that act behind those of compensation in one block: refused in the block that switches it on.
+    /// Of codes that act after those of compensation in one block: refused in the block that switches it on.
     pub after: u8,
     /// Of codes that act before those of compensation in one block: refused in the block that switches it off.
     pub before: u8,

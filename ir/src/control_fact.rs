@@ -34,14 +34,14 @@ reasons! {
         ToolCodeAtStart {
             /// T.
             letter: char,
-            /// The number behind it.
+            /// The number after it.
             number: u32,
         },
         /// The code of the length that is active at the start.
         LengthCodeAtStart {
             /// H or D.
             letter: char,
-            /// The number behind it.
+            /// The number after it.
             number: u32,
         },
         /// The increment to which computed words are rounded.
@@ -61,7 +61,7 @@ reasons! {
             /// Its value.
             value: Box<str>,
         },
-        /// A code goes back to a caller, which is not in the text.
+        /// A code returns to a caller, which is not in the text.
         ReturnsToCaller {
             /// The code.
             code: &'static str,
@@ -153,7 +153,7 @@ reasons! {
         RoundedDown,
         /// Numbers are not negative where they are divided for a remainder.
         Divided,
-        /// Rounded increments add up to less than the last digit.
+        /// Rounded increments add up to less than the least increment.
         RoundedIncrements,
         /// The angle of an oriented spindle stop without one.
         Orientation {

@@ -161,7 +161,7 @@ pub enum Gravity {
     Verdict(Verdict),
 }
 
-/// A modal fact that was taken for granted.
+/// A modal fact that was assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // The names are those of `Modes`.
 pub enum ModeName {
@@ -287,7 +287,7 @@ faults! {
     PointNotAllowed { word: Box<str> } = 208, Error;
     /// A value outside the range of the word.
     OutOfRange { word: Ranged } = 209, Error;
-    /// Axis words, and no motion code has been said.
+    /// Axis words, and no motion code has been stated.
     NoMotionMode = 210, Error;
     /// An arc without centre or radius.
     ArcWithoutCentre = 211, Error;
@@ -313,9 +313,9 @@ faults! {
     MacroLanguage { what: Box<str> } = 220, Error;
     /// A tool change and no tool was selected.
     NoToolSelected = 221, Error;
-    /// A move at feed and no feed was said.
+    /// A move at feed and no feed was stated.
     NoFeed = 222, Error;
-    /// Holes without a cycle in force.
+    /// Holes without an active cycle.
     NoCycle = 223, Error;
     /// The retract plane lies below the bottom of the hole.
     CycleUpsideDown = 224, Error;
@@ -323,7 +323,7 @@ faults! {
     EntryFactNeeded { fact: ModeName } = 225, Error;
     /// A statement that only the text form can carry, and that is not executed.
     NotExecuted { what: Unexecuted } = 226, Error;
-    /// A program that does not come to an end.
+    /// A program that does not end.
     NoEnd { steps: u64 } = 227, Error;
     /// The user has stopped ncc while it executed the program.
     Interrupted { steps: u64 } = 237, Error;
@@ -332,7 +332,7 @@ faults! {
     LabelUnknown { name: Box<str> } = 228, Error;
     /// An arc by angle, through a point or tangent, and no circle fits its words.
     NoArc = 229, Error;
-    /// A move in step with a spindle that has no speed.
+    /// A move synchronised with a spindle that has no speed.
     NoSpeed = 230, Error;
     /// A cycle whose control refuses it unless the spindle turns, for a tap to one side.
     SpindleForCycle { turn: Option<Turn>, by_target: bool } = 242, Error;
@@ -342,14 +342,14 @@ faults! {
     VariableUnset { name: Box<str> } = 232, Error;
     /// What is computed when the program runs, where no target is given variables, expressions or jumps.
     Computes { what: RunTime } = 233, Error;
-    /// A loop that is never left: a turn of it changes nothing by which the program goes.
+    /// A loop that is never left: an iteration changes nothing that its condition reads.
     Endless = 234, Error;
     /// Its control refuses it while cutter radius compensation is on.
     RefusedCompensated { what: CompensationRefusal } = 235, Error;
     /// A program that begins again takes a mode for granted at its start that is another at its end.
     BeginsOtherwise { fact: ModeName } = 238, Error;
 
-    /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
+    /// A contour is to be computed beside which the tool goes, and nobody has said by which radius: that
     /// of an entry, or of an edge.
     RadiusUnknown { entry: Option<u32> } = 240, Error;
     /// A contour along which the tool cannot go without cutting into it.
@@ -364,7 +364,7 @@ faults! {
     AssumedNoEffect { code: Box<str> } = 302, verdict(Verdict::Assumed);
     /// A number without a decimal point was read by the dialect's rule.
     AssumedBareNumber { word: Box<str>, value: Box<str> } = 303, verdict(Verdict::Assumed);
-    /// A length offset on a block without a drilling-axis word is taken up with the next.
+    /// A length offset on a block without a drilling-axis word takes effect with the next.
     AssumedOffsetWithZ = 304, verdict(Verdict::Assumed);
     /// The one work offset of a control without work-offset words is the one that is named.
     AssumedWorkOffset { offset: u16 } = 305, verdict(Verdict::Assumed);
@@ -375,13 +375,13 @@ faults! {
     /// A fact of the control or the machine that nothing states.
     AssumedFact { fact: ControlFact } = 308, verdict(Verdict::Assumed);
 
-    /// A pattern whose order of holes a control may choose by where the tool stands is made in the
+    /// A pattern whose order of holes a control may choose by where the tool is is made in the
     /// order of its parameters.
     AssumedHoleOrder { pattern: Box<str> } = 309, verdict(Verdict::Assumed);
     /// The length of edge 1 of a tool is the entry of the length table with the tool's number.
     AssumedEdge { tool: u32 } = 310, verdict(Verdict::Assumed);
 
-    /// The target has no word for how corners are taken: it is taken to do it always in this way.
+    /// The target lacks how corners are taken: it is taken to do it always in this way.
     AssumedPath { path: Box<str> } = 311, verdict(Verdict::Assumed);
 
     /// The tool goes onto a compensated contour, and leaves it, in the same way on both controls.
@@ -390,13 +390,13 @@ faults! {
     /// entry of that number was taken.
     AssumedRadius { entry: u32 } = 313, verdict(Verdict::Assumed);
 
-    /// Rotary axes, and the zero that points of the tool's tip count from, are the same on both controls.
+    /// Rotary axes, and the zero that points of the tool tip count from, are the same on both controls.
     AssumedTip = 320, verdict(Verdict::Assumed);
-    /// The tool is turned onto a tilted plane in the same way on both controls.
+    /// The tool is swivelled to a tilted plane in the same way on both controls.
     AssumedTilt = 321, verdict(Verdict::Assumed);
     /// The source's control was recognised by its text, which fits another one as well, and that one reads it otherwise.
     AssumedControl { taken: Box<str>, other: Box<str> } = 330, verdict(Verdict::Assumed);
-    /// The T beside M06 is taken for the tool that is put in, though another one waits of which the length is called up.
+    /// The T beside M06 is taken for the tool that is put in, though another one waits of which the length is activated.
     AssumedToolChange { named: u32, waiting: u32 } = 336, verdict(Verdict::Assumed);
     /// A return to a reference point with G90 and G91 in its block: its words are read by the last one, which is
     /// absolute or not; `zero`: all of them are nothing.
@@ -417,7 +417,7 @@ faults! {
     OptionalStopDiffers = 325, verdict(Verdict::Assumed);
     /// The program never says how corners are taken, and the two controls begin otherwise: how each does.
     PathAtStart { source: &'static str, target: &'static str } = 326, verdict(Verdict::Assumed);
-    /// The program leaves a shift in force that one control keeps for its next run, before it shifts the axis itself:
+    /// The program leaves an active shift that one control keeps for its next run, before it shifts the axis itself:
     /// by how much each begins it shifted, nanos of a millimetre or a degree.
     NextRunShifted { axis: Axis, source: i64, target: i64 } = 327, verdict(Verdict::Assumed);
     /// The same of a rotation, a scale or a mirror.
@@ -452,7 +452,7 @@ faults! {
     PatternExpanded { holes: u32 } = 404, verdict(Verdict::Expanded);
     /// A cycle written as its moves.
     CycleExpanded { kind: Box<str> } = 405, verdict(Verdict::Expanded);
-    /// A subprogram written out where it is called.
+    /// An inlined subprogram.
     CallExpanded { name: Box<str>, times: u32 } = 406, verdict(Verdict::Expanded);
     /// A block-skip level that the target lacks: its block has the first level.
     SkipLevelLost { level: u8 } = 407, verdict(Verdict::Changed);
@@ -473,23 +473,23 @@ faults! {
     CodeLeftOut { what: LeftOut } = 444, verdict(Verdict::Reformatted);
     /// A message that is shown while the program goes on, which the target cannot do: it is a comment there.
     MessageAsComment = 443, verdict(Verdict::Reformatted);
-    /// A repetition written out.
+    /// An unrolled repetition.
     RepeatExpanded { times: u32 } = 412, verdict(Verdict::Expanded);
 
     /// A chain of frames worked into the coordinates.
     FramesExpanded = 413, verdict(Verdict::Expanded);
-    /// Long-hand moves written as a cycle.
+    /// Long-hand moves folded into a cycle.
     CycleFolded { kind: Box<str>, holes: u32 } = 414, verdict(Verdict::Reformatted);
-    /// Positions written as a pattern that meets each to half a unit of the last of its `digits`
+    /// Positions folded into a pattern that meets each to half a unit of the last of its `digits`
     /// after the point, of an inch or of a millimetre.
     PatternFolded { pattern: Box<str>, holes: u32, digits: u8, inch: bool } = 415, verdict(Verdict::Reformatted);
 
     /// A subprogram or a label whose name the target cannot have.
     NameChanged { from: Box<str>, to: Box<str> } = 416, verdict(Verdict::Reformatted);
 
-    /// A way of taking corners that the target has no word for, and the one that was written for it.
+    /// A way of taking corners that the target lacks, and the one that was written for it.
     PathRelaxed { from: Box<str>, to: Box<str> } = 417, verdict(Verdict::WithinTolerance);
-    /// Advice to the control of a kind that the target has no word for.
+    /// Advice to the control of a kind that the target lacks.
     AdviceLeftOut { kind: Box<str> } = 418, verdict(Verdict::Reformatted);
     /// A work offset that the target cannot name, and in which nothing moves.
     WorkOffsetLeftOut { offset: u16 } = 419, verdict(Verdict::Reformatted);
@@ -499,7 +499,7 @@ faults! {
     VariablesRenamed { map: Box<str> } = 421, verdict(Verdict::Reformatted);
     /// Alarms have other numbers in the target, or their number in the text; which is which.
     AlarmsRenumbered { map: Box<[AlarmMapped]> } = 422, verdict(Verdict::Reformatted);
-    /// Values in messages have other digits in the target: so many behind the point.
+    /// Values in messages have other digits in the target: so many after the point.
     ValuesInFull { digits: u8 } = 423, verdict(Verdict::Reformatted);
     /// Text for a device that the target does not write to.
     OutputDropped = 424, verdict(Verdict::Reformatted);
@@ -509,9 +509,9 @@ faults! {
     AlarmValues = 427, verdict(Verdict::Reformatted);
     /// What the source's control does by itself at a code, written before it as words.
     SideEffectWritten { behaviour: Behaviour } = 426, verdict(Verdict::Reformatted);
-    /// A cut in machine coordinates written in the work offset in force, less the offsets.
+    /// A cut in machine coordinates written in the active work offset, less the offsets.
     MachineCutExpanded { offset: u16 } = 431, verdict(Verdict::Expanded);
-    /// Words less the offsets in force written as a cut in machine coordinates; the source's control rounds them to so
+    /// Words less the active offsets written as a cut in machine coordinates; the source's control rounds them to so
     /// many digits, of an inch or of a millimetre.
     MachineCutFolded { digits: u8, inch: bool } = 432, verdict(Verdict::Reformatted);
     /// A peck that is longer than its hole written as long as the hole is.
@@ -519,7 +519,7 @@ faults! {
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 
-    /// A compensated contour written as the path of the tool's centre; the radius in nanos of a millimetre.
+    /// A compensated contour written as the tool centre path; the radius in nanos of a millimetre.
     CompensationExpanded { radius: i64 } = 440, verdict(Verdict::Expanded);
     /// Linear and rotary axes together, written by the time that the move takes.
     FeedByTime = 442, verdict(Verdict::Reformatted);
@@ -527,7 +527,7 @@ faults! {
     CornerExpanded = 450, verdict(Verdict::Expanded);
 
     // NC05xx: what the target cannot say.
-    /// The target has no words for it.
+    /// The target lacks it.
     TargetLacks { lack: Lack } = 501, Error;
     /// A second work offset for a control that has one.
     SecondWorkOffset { first: u16, second: u16 } = 502, Error;
@@ -535,7 +535,7 @@ faults! {
     ArcVanishes = 503, Error;
     /// A number outside the target's range.
     TargetRange { word: Box<str> } = 504, Error;
-    /// What the translation would take for granted is denied by the profile of a machine: which fact,
+    /// What the translation would assume is denied by the profile of a machine: which fact,
     /// and whose.
     ProfileDenies { fact: Box<str>, machine: Box<str> } = 505, Error;
     /// A number that the program uses and the map between two machines does not have: the target's
@@ -550,7 +550,7 @@ faults! {
 
     /// What the source's control does besides the name of a code decides the cut, and must be stated.
     MustBeStated { behaviour: Behaviour } = 509, Error;
-    /// A fact that the program leaves to what was in force before it, and that the target's control always
+    /// A fact that the program leaves to what was active before it, and that the target's control always
     /// begins with a value of its own for.
     ModeNotSet { fact: ModeName } = 507, Error;
     /// By how many degrees a rotary axis turns is left to the two controls: by what the number says, or another way;
@@ -572,10 +572,10 @@ faults! {
     SkipSettingsSampled { levels: u8 } = 603, Warning;
     /// A variable is read that the program may not have set: it was given values, the same on both sides.
     VariableGiven { name: Box<str> } = 604, Warning;
-    /// A way that the program can go was not gone when it was run against the output: where the decision holds, where
+    /// An uncovered branch of the program against the output: where the condition holds, where
     /// it does not, or both.
     BranchUncovered { holds: bool, fails: bool } = 605, Warning;
-    /// The output decides more than the source does, and not all of that went both ways; blocks of it where it did not.
+    /// The output has more branches than the source, and some are uncovered; their blocks.
     OutputNotTaken { blocks: Box<str> } = 609, Warning;
     /// A run with another value of an open fact was left before the program's end; `None` is the switch for optional
     /// stops. `source` is whose control.

@@ -41,14 +41,14 @@
 //!
 //! # Numbers and units
 //!
-//! A literal is an exact decimal with its unit: a mantissa, digits behind the point, and whether a point was written
+//! A literal is an exact decimal with its unit: a mantissa, digits after the point, and whether a point was written
 //! ([`Num`](expr::num::Num)). `10.mm` and `10.0mm` are the same length in other digits, and a back-end that can keep the
 //! digits does. Binary floats live in [`geometry`] and in the arithmetic of controls alone.
 //!
 //! | unit | is |
 //! |---|---|
 //! | `mm`, `in` | a length, also a feed per minute or per revolution |
-//! | `u` | a length in the unit that is in force at the entry of the procedure: nobody has said it on the way |
+//! | `u` | a length in the unit that is active at the entry of the procedure: nobody has said it on the way |
 //! | `deg` | an angle |
 //! | `s` | a time |
 //! | none | a pure number: speed in rev/min, counts, numbers of tools and offsets |
@@ -79,10 +79,10 @@
 //!
 //! # `Known` and `Entry`
 //!
-//! A fact on which a statement depends is a [`Fact`](canon::Fact): `Known` if the procedure has said it on every way to
+//! A fact on which a statement depends is a [`Fact`](canon::Fact): `Known` if the procedure has said it on every path to
 //! the statement, `Entry` if it is whatever holds where the procedure begins. `X 5.u` in a subprogram is such a length:
 //! the caller has said `G20` or `G21`. Front-ends never guess. A fact that the main program relies on and never says is
-//! taken for granted from the dictionary, noted in [`Program::assumed`](program::Program::assumed), and told.
+//! assumed from the dictionary, noted in [`Program::assumed`](program::Program::assumed), and reported.
 //!
 //! A pass that needs an `Entry` fact has three ways: it finds the value at all callers, it has a copy of the procedure
 //! made for each value, or it refuses the statement by name.
@@ -100,13 +100,13 @@
 //! 6. spindle and coolant off; stops; the end.
 //!
 //! Some statements are about the motion that follows in their block, and are over with it: `USE_MACHINE_COORDINATES`,
-//! `EXACT_STOP`, `PROBE`, `DETOUR`, `TURN_ROTARY_AXES`, and the corner behind it. Between such a statement and its motion
-//! nothing may be put that moves, and no pass may separate them into two blocks. A block that can be skipped carries its
+//! `EXACT_STOP`, `PROBE`, `DETOUR`, `TURN_ROTARY_AXES`, and the corner after it. Between such a statement and its motion
+//! nothing may be put that moves, and no pass may separate them into two blocks. A block with block skip carries its
 //! level on each of its statements.
 //!
 //! # Cycles and patterns
 //!
-//! `START_CYCLE` calls a cycle up and makes no hole. `HOLE` makes one with the cycle in force, `END_CYCLE` ends it. A
+//! `START_CYCLE` calls a cycle up and makes no hole. `HOLE` makes one with the active cycle, `END_CYCLE` ends it. A
 //! cycle holds all that it needs: plane, levels, depth, feed. A pattern is one statement with all its positions, in the
 //! order in which they are drilled.
 //!
@@ -142,8 +142,8 @@
 //! # What a pass may rely on, and what it owes
 //!
 //! It may rely on: words that say how they are measured; blocks in the order above; cycles with all that they need; facts
-//! that are `Known` being known on every way. It may not rely on: where the axes stand, unless the tracker
-//! ([`track::Tracker`]) says so; a mode behind a label, a call or a skipped block.
+//! that are `Known` being known on every path. It may not rely on: where the axes stand, unless the tracker
+//! ([`track::Tracker`]) says so; a mode after a label, a call or a skipped block.
 //!
 //! It owes: the same events in every world; the place of the source on each statement; a diagnostic for whatever is not as
 //! it was, by its verdict; and where it can do none of that, a refusal at the place.

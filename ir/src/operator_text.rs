@@ -12,7 +12,7 @@ pub enum Piece {
     Value {
         /// Its value; nothing is written as an empty text.
         value: Expr,
-        /// Digits behind the point, 0 to 9.
+        /// Digits after the point, 0 to 9.
         digits: u8,
         /// Whether zeros at the end, and then the point, are left out.
         short: bool,

@@ -34,7 +34,7 @@ impl Rank {
     }
 }
 
-/// The rank of a mode that is taken for granted at the start.
+/// The rank of a mode that is assumed at the start.
 const fn of_mode(mode: ModeName) -> Rank {
     match mode {
         ModeName::Units => Rank::Dangerous,

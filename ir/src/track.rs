@@ -1,7 +1,7 @@
-//! Where the tool stands and what is in force, as far as the program itself says it.
+//! Where the tool stands and what is active, as far as the program itself says it.
 //!
 //! An abstract execution in program coordinates: an axis is known or it is not. For passes and
-//! back-ends, which have no world. Nothing is taken for granted beyond the entry facts given.
+//! back-ends, which have no world. Nothing is assumed beyond the entry facts given.
 
 mod frames;
 mod holes;
@@ -32,33 +32,33 @@ use crate::program::{
 /// State of the abstract execution.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tracker {
-    /// Facts in force; `None` is not known.
+    /// Facts active; `None` is not known.
     pub modes: Modes,
     /// Position in the program's frame, nanos; `None` is not known.
     pub position: [Option<Nanos>; AXES],
-    /// The cycle in force.
+    /// The active cycle.
     pub cycle: Option<ActiveCycle>,
-    /// Whether another cycle than `cycle` may be in force, because of a block that may be skipped.
+    /// Whether another cycle than `cycle` may be active, because of a block that may be skipped.
     pub cycle_in_doubt: bool,
-    /// From which level it then works, if it is in force.
+    /// From which level it then works, if it is active.
     pub doubtful_initial: Option<Nanos>,
     /// The selected tool, if it is a literal.
     pub selected: Option<i64>,
     /// The tool in the spindle, if it is known.
     pub tool: Option<i64>,
-    /// Whether a frame of the chain may be in force.
+    /// Whether a frame of the chain may be active.
     pub framed: bool,
     /// Whether that is one of the chain of frames.
     pub chained: bool,
     /// What the spindle does, if it is known.
     pub spindle: Option<Spindle>,
-    /// The spindle speed in force, if it is a number that is known.
+    /// The active spindle speed, if it is a number that is known.
     pub speed: Option<Num>,
-    /// The feed in force, if it is a number that is known.
+    /// The active feed, if it is a number that is known.
     pub feed: Option<Num>,
-    /// Whether any feed may have been said.
+    /// Whether any feed may have been stated.
     pub fed: bool,
-    /// Whether the units may have changed since it was said.
+    /// Whether the units may have changed since it was stated.
     pub stale_feed: bool,
     /// Whether a slot may turn, scale or mirror.
     pub turned: bool,
@@ -78,31 +78,31 @@ pub struct Tracker {
     pub probing: bool,
     /// Whether the next rapid straight move goes another way than straight.
     pub detour: bool,
-    /// By way of which points axes went to points of the machine.
+    /// Through which points axes went to reference points.
     pub intermediate: intermediate::Intermediate,
     /// The pole of polar words.
     pub pole: Pole,
     /// Whether it is not known.
     pub pole_lost: bool,
-    /// Whether no numbers of a shift of the origin are kept that are not in force.
+    /// Whether no numbers of a G92 shift are kept that are not active.
     pub none_suspended: bool,
     /// Whether cutter radius compensation may be on.
     pub compensated: bool,
-    /// Whether points may be those of the tool's tip, or of a tilted plane.
+    /// Whether points may be those of the tool tip, or of a tilted plane.
     pub tilted: bool,
-    /// Whether offsets of tools along X and Y have been said: a length called up may then put the tool elsewhere in
+    /// Whether offsets of tools along X and Y have been stated: a length activated may then put the tool elsewhere in
     /// the plane too.
     pub aside: bool,
     /// A tool change takes Z to where nothing but the machine knows.
     pub z_lost_at_change: bool,
 }
 
-/// A cycle in force, with its planes resolved as far as they are known.
+/// An active cycle, with its planes resolved as far as they are known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActiveCycle {
     /// The cycle.
     pub cycle: Cycle,
-    /// Level of the drilling axis when it was called up.
+    /// Level of the drilling axis when it was activated.
     pub initial: Option<Nanos>,
     /// The retract plane.
     pub retract: Option<Nanos>,
@@ -115,7 +115,7 @@ pub struct ActiveCycle {
 }
 
 impl Tracker {
-    /// A start with these facts in force and no axis known.
+    /// A start with these active facts and no axis known.
     pub fn new(entry: Modes) -> Tracker {
         Tracker { modes: entry, ..Tracker::default() }
     }
@@ -362,7 +362,7 @@ impl Tracker {
                 }
             }
             Op::SetData(data) => match &**data {
-                // Where the axes stand is counted anew, if it is the offset in force.
+                // Where the axes stand is counted again, if it is the active offset.
                 Data::Offset { offset, words, turn, .. }
                     if self.modes.work_offset.is_none_or(|own| own == *offset) =>
                 {
@@ -430,7 +430,7 @@ impl Tracker {
         }
     }
 
-    /// An entry of the table of tools has other values; what is in force of it may be the ones before.
+    /// An entry of the table of tools has other values; what is active of it may be the ones before.
     fn change_entry(&mut self, entry: u32) {
         if self.modes.length_offset == Some(entry) {
             self.modes.length_offset = None;
@@ -444,7 +444,7 @@ impl Tracker {
         }
     }
 
-    /// Where a polar point is, its plane, and the pole behind it, as far as they are known.
+    /// Where a polar point is, its plane, and the pole after it, as far as they are known.
     pub fn polar(&self, polar: &Polar) -> Option<([Nanos; 2], Plane, Pole)> {
         let plane = self.plane(polar.plane)?;
         let (at, pole) = polar::point(polar, plane, &Polarly(self)).ok()?;
@@ -460,7 +460,7 @@ impl Tracker {
     fn go_polar(&mut self, polar: &Polar) {
         let found = self.polar(polar);
         if found.is_none() {
-            // The pole stays where it is; which words are in force behind it is not known.
+            // The pole stays where it is; which words are active after it is not known.
             (self.pole.radius, self.pole.angle) = (None, None);
             self.pole_lost |= self.plane(polar.plane).is_none();
         }

@@ -5,7 +5,7 @@
 /// Appends a text to `shown` in capitals, digits and these signs.
 pub fn in_capitals(text: &str, signs: &str, shown: &mut String) {
     let shows = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == ' ' || signs.contains(c);
-    // Whether what was written last is the dash for an opening bracket: the number behind it is not negative.
+    // Whether what was written last is the dash for an opening bracket: the number after it is not negative.
     let mut bracket = false;
     for c in text.chars() {
         if std::mem::take(&mut bracket) && (c.is_ascii_digit() || c == '.') {

@@ -239,7 +239,7 @@ fn tables(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
         } else if let Some(n) = entry.value.or(tool.number.value).filter(|n| *n > 0) {
             match entry.value {
                 Some(_) => stated.push((n, entry.span.clone())),
-                // A tool twice is told as that.
+                // A tool twice is reported as that.
                 None => drop(entries.entry(n).or_insert_with(|| tool.number.span.clone())),
             }
         }

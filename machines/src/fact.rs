@@ -19,7 +19,7 @@ use crate::takes::Takes;
 pub struct Fact<T> {
     /// The value; `None` is not stated.
     pub value: Option<T>,
-    /// Who says so; empty if the profile does not tell.
+    /// The manual and its page, or another source; empty if the profile does not tell.
     pub source: String,
     /// Whether the profile itself marks it as assumed.
     pub assumed: bool,

@@ -3,7 +3,7 @@
 //! A profile is a data file: the dialect and the parameters of a control, rates and times of the
 //! machine, tables, and the shop's choices for emitted programs. Every fact may be left out; what is
 //! not stated is asked for or told as assumed, never filled in. A profile is checked as a whole, and
-//! what is wrong with it is told with its place.
+//! what is wrong with it is reported with its place.
 //!
 //! ```text
 //! [power_on]            what is active when the control starts

@@ -1,7 +1,7 @@
 //! Two machines' names for the same things: the maps of numbers from one to the other.
 //!
 //! Tools, work offsets and programs that have one name are one. [`maps`] is for writing, and goes from
-//! the source's numbers; [`renaming`] is for judging what was written, and goes back from the target's
+//! the source's numbers; [`renaming`] is for judging what was written, and maps back from the target's
 //! rows by a way of its own, so that a fault of the first shows.
 
 use std::collections::BTreeMap;

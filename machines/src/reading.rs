@@ -1,6 +1,6 @@
 //! Which fact of which machine an assumption rests on.
 //!
-//! A translation tells what it took for granted. Each of these assumptions is one fact of one of the
+//! A translation tells what it assumed. Each of these assumptions is one fact of one of the
 //! two machines, with a place in its profile; a profile that states the fact settles it, and one that
 //! states the contrary forbids it. What has no place in a profile stays an assumption. The same
 //! goes for what is refused because a profile does not name it.
@@ -86,7 +86,7 @@ pub fn quoted(key: &str) -> String {
 /// What stands before the number of an M code in the name of a function that nobody has named yet.
 pub const UNNAMED: &str = "as-m";
 
-/// Key of the reading that a length offset is taken up with the next Z.
+/// Key of the reading that a length offset takes effect with the next Z.
 pub const OFFSET_WITH_Z: &str = "length-offset-with-next-z";
 
 /// Key of the reading of numbers without a decimal point, where it is no option.
@@ -102,7 +102,7 @@ pub const RADIUS_IS_ENTRY: &str = "radius-entry-is-tool";
 /// cycle is active again after it.
 pub const MOTION_AT_CYCLES: &str = "motion-at-cycles";
 
-/// Key of the reading that a control without a word for it always takes corners in one way.
+/// Key of the reading that a control that lacks it always takes corners in one way.
 pub const CORNERS: &str = "corners";
 
 /// Key of the reading that corners of programs without a path mode may be taken as the control begins.
@@ -114,10 +114,10 @@ pub const FEED_ON_ARCS: &str = "feed-on-compensated-arcs";
 /// Key of the reading that the tool goes onto a compensated contour, and leaves it, as on the other control.
 pub const CONTOUR_ENDS: &str = "contour-ends";
 
-/// Key of the reading that rotary axes, and the zero of points of the tool's tip, are those of the other machine.
+/// Key of the reading that rotary axes, and the zero of points of the tool tip, are those of the other machine.
 pub const TIP: &str = "tool-centre-point";
 
-/// Key of the reading that the tool is turned onto tilted planes as on the other machine.
+/// Key of the reading that the tool is swivelled to tilted planes as on the other machine.
 pub const TILT: &str = "tilted-plane";
 
 /// Key of the reading that the control goes beside a contour, onto it and off it, as RS274/NGC describes it.
@@ -148,7 +148,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
     let has_option = |name: &str| from.option.iter().any(|o| o.name == name);
     let edges = |dialect: &Dialect| dialect.letter_for(Role::ToolEdge).is_some();
     Some(match fault {
-        // Where the motion at power-on is a fact, or nothing is taken for granted of it, it is the one
+        // Where the motion at power-on is a fact, or nothing is assumed of it, it is the one
         // around a cycle that is meant.
         Fault::AssumedMode { fact: ModeName::Motion, .. }
             if from.power_on.motion.as_ref().is_none_or(|row| row.always) =>

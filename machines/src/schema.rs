@@ -250,8 +250,8 @@ macro_rules! names_of_the_dictionary {
 names_of_the_dictionary!(UnitsName, DistanceName, PlaneName, FeedModeName, ReturnLevelName, MotionName);
 
 table! {
-    /// What is active when a program starts. A fact that is stated here is taken for granted and
-    /// no assumption any more.
+    /// What is active when a program starts. A fact that is stated here holds and
+    /// is no assumption.
     PowerOn "[power_on]" {
         /// Unit of length.
         units: UnitsName = Takes::OneOf(&["mm", "inch"]);
@@ -265,11 +265,11 @@ table! {
         return_level: ReturnLevelName = Takes::OneOf(&["initial", "retract"]);
         /// What a block with axis words alone does.
         motion: MotionName = Takes::OneOf(&["traverse", "feed"]);
-        /// Work offset; on a control without words for it, the one of other controls that its only zero stands for (1 is G54).
+        /// Work offset; on a control that lacks it, the one of other controls that its only zero stands for (1 is G54).
         work_offset: u32 = Takes::Whole;
         /// Entry of the length table; 0 is none.
         length_offset: u32 = Takes::Whole;
-        /// Whether no shift of the origin is left over from an earlier program.
+        /// Whether no G92 shift is left over from an earlier program.
         no_origin_shift: bool = Takes::OneOf(&["true", "false"]);
     }
 }
@@ -374,7 +374,7 @@ table! {
 
 table! {
     /// An edge of a tool other than the first, of a program for a control whose tools have edges: which entry of this
-    /// machine's length table has its length and its radius. Without a row it gets a free one, which is told.
+    /// machine's length table has its length and its radius. Without a row it gets a free one, which is reported.
     EdgeRow "[[edge]]" {
         /// The tool's number on this machine.
         tool: u32 = Takes::WholeAboveZero;
@@ -426,7 +426,7 @@ table! {
         code: String = Takes::MCode;
         /// Its function, the same word on every machine: `chip-conveyor-on`.
         function: String = Takes::FunctionName;
-        /// In place of a function: that it has no effect on the cut. It is left out of a translation, and told.
+        /// In place of a function: that it has no effect on the cut. It is left out of a translation, and reported.
         effect: Effect = Takes::OneOf(&["none"]);
         /// Seconds that it takes.
         seconds: f64 = Takes::FromZero;
@@ -435,7 +435,7 @@ table! {
 
 table! {
     /// What a variable holds when a program starts, that programs of this machine read and never set. The output sets it
-    /// itself, and it is told.
+    /// itself, and it is reported.
     ValueRow "[[value]]" {
         /// The variable, as programs have it: `500`, `_tool_diameter`, `R5`.
         name: String = Takes::Text;
@@ -455,7 +455,7 @@ table! {
         first_number: u32 = Takes::WholeBetween { least: 0, most: 99_999 };
         /// The step of new block numbers.
         number_step: u32 = Takes::WholeBetween { least: 1, most: 99_999 };
-        /// Digits after the point of lengths in mm: at most those that the control has. What is finer is rounded, and told.
+        /// Digits after the point of lengths in mm: at most those that the control has. What is finer is rounded, and reported.
         decimals: u32 = Takes::Whole;
         /// The same, of lengths in inches.
         decimals_inch: u32 = Takes::Whole;

@@ -24,7 +24,7 @@ pub struct Stated {
     pub key: &'static str,
     /// The value; `None` is not stated.
     pub value: Option<String>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
     /// Whether it is marked as assumed.
     pub assumed: bool,
@@ -55,7 +55,7 @@ pub trait Table {
     fn stated(&self) -> Vec<Stated>;
 }
 
-/// A value that can be told.
+/// A value that a table shows.
 pub trait Tell {
     /// What is stated under a key.
     fn tell(&self, key: &'static str) -> Stated;

@@ -86,7 +86,7 @@ page("a name that cannot be shown to be complete keeps its name, with the reason
   assert.ok(!(await own.isVisible("#editor-dialog")));
 });
 
-both("a program is laid out and numbered anew, each as one step back", {}, async (own) => {
+both("a program is laid out and renumbered, each as one step back", {}, async (own) => {
   await type(own, SQUARE.replace("G1 Z-2. F300.", "g1z-2.f300."));
   const before = await text(own);
   await own.click("#lay-out");

@@ -244,7 +244,7 @@ fn form(of: &str) -> String {
         "PlaneName" => "`xy` `zx` `yz`".into(),
         "FeedModeName" => "`per-minute` `per-revolution` `inverse-time`".into(),
         "ReturnLevelName" => "`initial` `retract`".into(),
-        "ApproachName" => "`plane-first` `raise-first` `clear-first`".into(),
+        "ApproachName" => "`plane-first` `raise-first` `retract-first` `clear-first`".into(),
         "MotionName" => "`traverse` `feed`".into(),
         "RemainderRule" => "`of-any` `typed` `made-whole`".into(),
         "T" => "the value".into(),

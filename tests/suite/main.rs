@@ -24,6 +24,7 @@ mod file_schemas;
 mod fmt;
 mod fold;
 mod generated;
+mod glossary;
 mod in_pieces;
 mod kept;
 mod laws;

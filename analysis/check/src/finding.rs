@@ -35,7 +35,7 @@ pub enum Outside {
     Above,
 }
 
-/// A mode that a program leaves in force.
+/// A mode that a program leaves active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LeftOn {
     /// Incremental words.
@@ -58,7 +58,7 @@ pub enum LeftOn {
 pub type Setting = LeftOn;
 
 /// The figures of a finding. Lengths are nanos of a millimetre (degrees of a rotary axis) in machine
-/// coordinates unless it is said otherwise, feeds nanos of mm/min, speeds nanos of rev/min.
+/// coordinates unless it is stated otherwise, feeds nanos of mm/min, speeds nanos of rev/min.
 #[derive(Clone, Debug, PartialEq)]
 pub enum What {
     /// An axis goes beyond its travel.
@@ -90,18 +90,18 @@ pub enum What {
         /// The limit.
         limit: Nanos,
     },
-    /// No feed has been said.
+    /// No feed has been stated.
     NoFeed,
-    /// The spindle stands.
+    /// The spindle is stopped.
     SpindleStands,
-    /// The spindle turns and no speed has been said.
+    /// The spindle turns and no speed has been stated.
     SpindleWithoutSpeed,
     /// Z moves without the length of the tool; the place of the change is related.
     NoLength {
         /// The tool that was put in.
         tool: i64,
     },
-    /// Z moves with the length that was in force before the change.
+    /// Z moves with the length that was active before the change.
     OldLength {
         /// The tool that was put in.
         tool: i64,

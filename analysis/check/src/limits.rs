@@ -21,7 +21,7 @@ pub struct Limits {
     pub rapid_plane: Option<Nanos>,
     /// Work offsets and lengths.
     pub tables: Tables,
-    /// Whether the operator sets the zero of Z by each tool, so that no length is called up.
+    /// Whether the operator sets the zero of Z by each tool, so that no length is activated.
     pub no_lengths: bool,
 }
 
@@ -42,13 +42,13 @@ pub enum Unchecked {
     Frame(u8),
     /// Travel of an axis: it moves from a place that the program does not say.
     Start(u8),
-    /// Travel of an axis: points are those of the tool's tip, or of a tilted plane.
+    /// Travel of an axis: points are those of the tool tip, or of a tilted plane.
     Tilted(u8),
     /// Feeds: the highest is not stated.
     MaxFeed,
     /// Speeds: the highest is not stated.
     MaxSpeed,
-    /// All that needs execution, from a place on: it does not come to an end.
+    /// All that needs execution, from a place on: it does not end.
     Endless,
 }
 

@@ -55,19 +55,19 @@ rules! {
     FeedRange = 802, "feed-range", Warning, "A feed is above the highest of the machine or of an axis.";
     /// A spindle speed above the machine's highest.
     SpeedRange = 803, "speed-range", Warning, "A spindle speed is above the machine's highest.";
-    /// A move at feed before any feed was said.
-    NoFeed = 804, "no-feed", Error, "A move at feed comes before any feed has been said.";
-    /// A move at feed while the spindle stands.
-    NoSpindle = 805, "no-spindle", Warning, "A move at feed is made while the spindle stands or has no speed.";
+    /// A feed move before any F.
+    NoFeed = 804, "no-feed", Error, "A feed move comes before any F.";
+    /// A feed move with the spindle stopped.
+    NoSpindle = 805, "no-spindle", Warning, "A feed move is made with the spindle stopped or without a speed.";
     /// The drilling axis moves after a tool change without the tool's length.
-    NoLength = 806, "no-length", Warning, "Z moves after a tool change before the length of the tool is in force.";
+    NoLength = 806, "no-length", Warning, "Z moves after a tool change before the tool length offset is active.";
     /// A rapid below the plane that the user has named.
     RapidBelow = 807, "rapid-below", Error, "A rapid goes below the plane that was named.";
     /// A number without a point among numbers with one.
     BareNumber = 808, "bare-number", Warning, "A number without a decimal point counts increments, and others have points.";
-    /// A mode that the next program finds in force.
-    LeftOn = 809, "left-on", Warning, "The program ends with a mode in force that the next one may find.";
-    /// What runs, or a length that is in force, when the program ends.
+    /// A mode that the next program finds active.
+    LeftOn = 809, "left-on", Warning, "The program ends with an active mode that the next one may find.";
+    /// What runs, or a length that is active, when the program ends.
     LeftRunning = 810, "left-running", Note, "The program ends with spindle, coolant or a length offset on.";
     /// A called program that is not in the text.
     CallNowhere = 811, "call-nowhere", Note, "A program that is called is not in the text.";

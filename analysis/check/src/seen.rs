@@ -1,4 +1,4 @@
-//! What a program has said so far, as far as rules need it: what is known, and what is not.
+//! What a program has stated so far, as far as rules need it: what is known, and what is not.
 
 use ncc_ir::canon::AXES;
 use ncc_ir::source::Span;
@@ -20,10 +20,10 @@ pub(crate) enum Known {
 /// The length of the tool since the last change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Length {
-    /// No change, or its length is in force, or it was told already that it is not.
+    /// No change, or its length is active, or it was reported already that it is not.
     #[default]
     Fine,
-    /// The tool was changed at the place, and its length is not in force.
+    /// The tool was changed at the place, and its length is not active.
     Missing(Span),
 }
 
@@ -36,7 +36,7 @@ pub(crate) struct Seen {
     pub(crate) length: Length,
     /// Whether the frames between machine and program may be others than those executed.
     pub(crate) frame_lost: bool,
-    /// Whether the length in force is not known.
+    /// Whether the active length is not known.
     pub(crate) length_lost: bool,
     /// Axes whose place is known in program coordinates.
     pub(crate) program: [bool; AXES],

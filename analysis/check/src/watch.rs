@@ -146,7 +146,7 @@ impl Checker {
         self.watched.findings.add(finding);
     }
 
-    /// The execution was given up: it does not come to an end.
+    /// The execution was given up: it does not end.
     pub fn give_up(&mut self) {
         self.watched.unchecked.insert(Unchecked::Endless);
         self.ended = true;

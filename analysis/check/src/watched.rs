@@ -30,7 +30,7 @@ pub(crate) struct Watched {
     pub(crate) cancels_length: bool,
 }
 
-/// Work offset in force, entry of the length table, and edge where the length is no entry.
+/// Work offset active, entry of the length table, and edge where the length is no entry.
 pub(crate) type Based = (u16, Option<u32>, Option<(i64, u32)>);
 
 /// The statement that a rule looks at, and the state before it.
@@ -42,7 +42,7 @@ pub(crate) struct Step<'s> {
     pub(crate) from_known: [bool; AXES],
     /// Whether its words are machine coordinates.
     pub(crate) raw: bool,
-    /// Whether points were those of the tool's tip, or of a tilted plane.
+    /// Whether points were those of the tool tip, or of a tilted plane.
     pub(crate) tilted: bool,
 }
 

@@ -63,7 +63,7 @@ pub fn myers(
     None
 }
 
-/// The pairs of the way that has come to the end of both lists.
+/// The pairs of the way that has reached the end of both lists.
 fn way_back(reach: &[Vec<u32>], n: usize, m: usize) -> Vec<Run> {
     let mut runs = Vec::new();
     let (mut x, mut y) = (n as isize, m as isize);

@@ -41,9 +41,9 @@ pub enum Change {
     Coolant(Coolant, Coolant),
     /// Cutter radius compensation.
     Compensation(Compensation, Compensation),
-    /// Work offset in force.
+    /// Work offset active.
     WorkOffset(u16, u16),
-    /// Tool length in force.
+    /// Tool length active.
     Length(Length, Length),
     /// The program's coordinates agree, those of the machine do not.
     Frame,
@@ -127,7 +127,7 @@ pub struct Collector {
 type Tapes<'a, 't> = [&'a Tape<'t>; 2];
 
 impl Collector {
-    /// Begins a further run, under other block-skip switches: what has been told is not told again.
+    /// Begins a further run, under other block-skip switches: what has been reported is not told again.
     pub fn again(&mut self, skip: u16) {
         self.skip = skip;
         self.by_change.clear();
@@ -210,7 +210,7 @@ impl Collector {
         }
     }
 
-    /// A new group; `None` if there are too many, or if it was told before.
+    /// A new group; `None` if there are too many, or if it was reported before.
     fn group(&mut self, change: Change, tool: i64, a: Option<&Record>, b: Option<&Record>) -> Option<usize> {
         let at = |record: Option<&Record>| record.map_or(u32::MAX, |record| record.at);
         if self.reported.contains(&(change, at(a), at(b))) {
@@ -314,7 +314,7 @@ impl Collector {
                 self.units |= a.what.moves() && a.inch() != b.inch();
                 let style = |r: &Record, side: usize| tapes[side].styles.get(r.style as usize);
                 if let (Some(s), Some(t)) = (style(a, 0), style(b, 1)) {
-                    // Positions are told already.
+                    // Positions are reported already.
                     let differs = measure.styles(s, t, a.inch() || b.inch()) & !bits::FRAME;
                     if differs != 0 {
                         self.attributes(a, b, differs, tapes);

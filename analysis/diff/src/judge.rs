@@ -93,7 +93,7 @@ proptest! {
         prop_assert!(found.equal() && found.pairs == a.records.len() as u64);
     }
 
-    /// An event that is put in, taken out or moved is told as that and nothing else.
+    /// An event that is put in, taken out or moved is reported as that and nothing else.
     #[test]
     fn one_edit_is_one_group(a in steps(), at in 0usize..60, kind in 0..3) {
         prop_assume!(!a.is_empty());

@@ -40,7 +40,7 @@ pub mod bits {
 }
 
 impl Measure {
-    /// Half a unit of the last digit of the coarser side.
+    /// Half the least increment of the coarser side.
     pub fn of(a: &Resolution, b: &Resolution) -> Measure {
         let half = |a: u8, b: u8, inch: bool| {
             let unit = POW10[9 - a.min(b).min(9) as usize];

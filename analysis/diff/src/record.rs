@@ -73,7 +73,7 @@ const LITTLE: u8 = 16;
 const NEARLY: u8 = 32;
 
 impl Record {
-    /// Where all axes stand after it. Of an arc, turning axes are in its style.
+    /// Where all axes stand after it. Of an arc, rotary axes are in its style.
     pub fn place(&self, style: &Style) -> [Nanos; AXES] {
         let [x, y, z] = self.end;
         let [a, b, c] = if self.what == What::Arc || !self.what.moves() { style.turned } else { self.more };
@@ -85,7 +85,7 @@ impl Record {
         self.flags & INCH != 0
     }
 
-    /// Whether its block measures from where the tool stands.
+    /// Whether its block measures from where the tool is.
     pub fn incremental(&self) -> bool {
         self.flags & INCREMENTAL != 0
     }
@@ -109,7 +109,7 @@ impl Record {
     }
 }
 
-/// Whose length is in force.
+/// Whose length is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Length {
     /// An entry of the length table; 0 is none.
@@ -125,9 +125,9 @@ pub struct Style {
     pub state: Still,
     /// Feed of a cutting move, mm/min in nanos; 0 of others.
     pub rate: Nanos,
-    /// Work offset in force; 1 is the first.
+    /// Work offset active; 1 is the first.
     pub offset: u16,
-    /// Length in force.
+    /// Length active.
     pub length: Length,
     /// Where A B C stand; only of what is no straight move.
     pub turned: [Nanos; 3],
@@ -135,7 +135,7 @@ pub struct Style {
     pub apart: [[Nanos; AXES]; WORLDS],
 }
 
-/// A [`State`] that can be told apart from others quickly.
+/// A [`State`] that can be distinguished from others quickly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // As in `State`.
 pub struct Still {
@@ -284,7 +284,7 @@ impl Recorder {
     }
 
     /// Records what one statement has made in every world, the plain one first; `plain` is the plain
-    /// world's control after it. `incremental` says whether its words measure from where the tool stands.
+    /// world's control after it. `incremental` says whether its words measure from where the tool is.
     pub fn record(&mut self, plain: &Exec, worlds: [&[Event]; 1 + WORLDS], incremental: bool) {
         self.line = None;
         let terms = (

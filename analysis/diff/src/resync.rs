@@ -2,7 +2,7 @@
 //!
 //! While the streams agree, they are compared one by one and let go. Where they part, ever larger windows
 //! of both are aligned: exactly while they are small ([`myers`]), then between anchors. Where neither the
-//! place nor the shift in force brings them together, the ways of their tools may: then a whole tail is
+//! place nor the active shift brings them together, the ways of their tools may: then a whole tail is
 //! shifted, as by an insertion into an incremental program. Not here: what the differences are called.
 
 use std::collections::HashMap;
@@ -198,7 +198,7 @@ impl Both<'_, '_> {
             for shift in self.shifts() {
                 let runs = self.anchored(n, m, &shift);
                 let paired: usize = runs.iter().map(|run| run.len).sum();
-                // Of two streams that never meet again, what little they share is told at the very end.
+                // Of two streams that never meet again, what little they share is reported at the very end.
                 if paired * 8 >= n.min(m)
                     && let Some(fit) = accepted(runs, n, m, complete > 0, shift)
                 {
@@ -222,7 +222,7 @@ impl Both<'_, '_> {
         [there[0].min(wide), there[1].min(wide), usize::from(complete)]
     }
 
-    /// Shifts under which the streams may come together: that in force, and none.
+    /// Shifts under which the streams may come together: the active one, and none.
     fn shifts(&self) -> Vec<Shift> {
         let mut all = vec![self.shift];
         if self.shift.on {
@@ -287,7 +287,7 @@ impl Both<'_, '_> {
         self.behind(run)
     }
 
-    /// What is before a stretch of pairs that go the same way is told; the shift of the stretch holds
+    /// What is before a stretch of pairs that go the same way is reported; the shift of the stretch holds
     /// from there.
     fn behind(&self, run: Run) -> Option<Fit> {
         let (a, b) = (self.tapes[0].window()[run.a], self.tapes[1].window()[run.b]);

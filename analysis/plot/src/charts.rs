@@ -63,7 +63,7 @@ enum Show<'r> {
 }
 
 /// Charts of one program, or of two over each other, as SVG. A caption says what they are of: the
-/// machine, the model, what is taken for granted.
+/// machine, the model, what is assumed.
 pub fn charts(records: &[&Record], which: &[Chart], caption: &str) -> String {
     let panels = panels(records, which);
     let all: f64 = panels.iter().map(|panel| panel.height + GAP).sum();

@@ -1,4 +1,4 @@
-//! Colours and lines. Each is told from the others by more than its colour: by dashes, width, or how
+//! Colours and lines. Each is distinguished from the others by more than its colour: by dashes, width, or how
 //! dark it is, so that a grey print and any reader's eyes are enough. Colours are those of Okabe and
 //! Ito's set for all kinds of colour vision.
 

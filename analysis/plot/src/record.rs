@@ -96,7 +96,7 @@ impl Stamps {
 pub struct Record {
     /// Its name.
     pub name: String,
-    /// Speed of the spindle, rev/min; 0 while it stands.
+    /// Speed of the spindle, rev/min; 0 while it is stopped.
     pub speed: Series,
     /// Rate along the path, mm/min, and of rotary axes alone degrees a minute; 0 while nothing moves.
     pub feed: Series,
@@ -110,7 +110,7 @@ pub struct Record {
     pub tools: Vec<Stretch>,
     /// The holes.
     pub holes: Vec<Hole>,
-    /// The way of the tool.
+    /// The tool path.
     pub way: Way,
     /// When moves are over; of move 0, 1, 2 … where not every one is kept, of every second, fourth …
     pub stamps: Stamps,

@@ -31,7 +31,7 @@ pub struct Page {
     pub record: Record,
     /// What is to be known of it, by name: the dialect, the machine, the model …
     pub facts: Vec<(String, String)>,
-    /// What is taken for granted.
+    /// What is assumed.
     pub assumed: Vec<String>,
     /// Its source.
     pub listing: Listing,

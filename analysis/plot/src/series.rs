@@ -61,7 +61,7 @@ impl Series {
         Series { course, points: Vec::new(), bins: Vec::new(), width: 0.0, last: None, zero: 0.0 }
     }
 
-    /// The value at a time, seconds; times do not go back. Of several values of a [`Course::Step`] at
+    /// The value at a time, seconds; times never decrease. Of several values of a [`Course::Step`] at
     /// one time the last counts: the others last no time.
     pub fn push(&mut self, time: f64, value: f64) {
         if !time.is_finite() || !value.is_finite() {

@@ -71,7 +71,7 @@ pub(crate) fn number(value: f64, step: f64) -> String {
     out
 }
 
-/// Whether a program of so many seconds is told in seconds alone.
+/// Whether a program of so many seconds is reported in seconds alone.
 pub(crate) fn in_seconds(long: f64) -> bool {
     long < 180.0
 }

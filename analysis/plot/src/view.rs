@@ -1,4 +1,4 @@
-//! The way of the tool from above and in isometric view, one scale for all axes.
+//! The tool path from above and in isometric view, one scale for all axes.
 
 use std::collections::HashSet;
 use std::fmt::Write;

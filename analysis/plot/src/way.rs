@@ -1,4 +1,4 @@
-//! The way of the tool, in memory that does not grow with the program.
+//! The tool path, in memory that does not grow with the program.
 //!
 //! A leg is a straight piece of it, in the program's coordinates. Once there are more of them than
 //! [`MOST`], legs that one line replaces within half a pixel become one, and if that is not enough,

@@ -1,4 +1,4 @@
-//! The moves that the simulation cuts: lines and arcs of the tool's tip, with tool, time and line.
+//! The moves that the simulation cuts: lines and arcs of the tool tip, with tool, time and line.
 //!
 //! Not here: making them from the events of an execution.
 
@@ -23,7 +23,7 @@ pub enum Way {
     },
 }
 
-/// A move of the tool's tip, in workpiece coordinates.
+/// A move of the tool tip, in workpiece coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
     /// Its path.

@@ -102,7 +102,7 @@ fn extent(triangles: &[Triangle]) -> [[f64; 3]; 2] {
 /// What holds the part: nothing may touch it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixture {
-    /// Its name, as it is told.
+    /// Its name, as ncc reports it.
     pub name: String,
     /// Its shape, in workpiece coordinates.
     pub shape: Stock,

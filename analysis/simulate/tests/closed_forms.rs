@@ -264,7 +264,7 @@ fn alarms() {
     rapid.push(go(Way::Rapid, [20.0, 15.0, -2.0]));
     rapid.push(go(Way::Rapid, [20.0, 15.0, -3.5]));
     assert_eq!(kinds(&rapid), [(AlarmKind::Rapid, 2, 3, 2.0)]);
-    // Along what is cut already nothing is said.
+    // Along what is cut already nothing is stated.
     rapid.push(go(Way::Rapid, [20.0, 15.0, -1.0]));
     assert_eq!(rapid.alarms().len(), 1);
 

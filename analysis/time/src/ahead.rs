@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 use crate::limits::Leg;
 use crate::ramp::stop_from;
 
-/// After so many legs the sum is counted anew, so that it keeps its digits.
+/// After so many legs the sum is counted again, so that it keeps its digits.
 const RECOUNT: u32 = 1 << 12;
 
 /// Legs that wait for those after them.

@@ -1,7 +1,7 @@
-//! What is taken for granted of a machine that does not state it.
+//! What is assumed of a machine that does not state it.
 //!
 //! Each model names what it needs; here is the value that it works with where the machine is silent,
-//! and the list of such values, which the caller tells the user. Nothing is told here.
+//! and the list of such values, which the caller tells the user. Nothing is reported here.
 //!
 //! The values of axes are those of a worked example in a control maker's technical manual: 30 m/min,
 //! a jerk of 35 m/s³ while cutting, and the acceleration of 3.4 m/s² that follows (HEIDENHAIN, iTNC 530
@@ -83,12 +83,12 @@ impl Fact {
     }
 }
 
-/// A value that was taken for granted.
+/// A value that was assumed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AssumedFact {
     /// What it is.
     pub fact: Fact,
-    /// The axis that it is of. One that never moves need not be told.
+    /// The axis that it is of. One that never moves need not be reported.
     pub axis: Option<Axis>,
     /// The value, in the fact's unit.
     pub value: f64,

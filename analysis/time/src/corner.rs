@@ -1,4 +1,4 @@
-//! How the corner at the end of a move is taken: the path mode that the program has in force wins over the
+//! How the corner at the end of a move is taken: the path mode that the program has active wins over the
 //! machine's own.
 //!
 //! The mode of a move counts for the corner at its end: so controls queue their moves (LinuxCNC's planner keeps

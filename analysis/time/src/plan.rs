@@ -3,7 +3,7 @@
 //! In terms of the squared speed, a leg of length `s` at acceleration `a` can change it by `2as` and no
 //! more. The fastest plan under the caps of all junctions is known: forwards, the square at a junction
 //! is at most the one before plus the gain between, and at most its cap; backwards likewise from the
-//! stop at the end. Here the backward pass is done piece by piece, and comes to the same as if the
+//! stop at the end. Here the backward pass is done piece by piece, and gives the same as if the
 //! whole path were known: a junction is settled as soon as the path known after it is long enough
 //! to stop from the highest speed that the forward pass gives it. What may still come can then only be
 //! faster than a stop. So the queue is no longer than the path in which the machine can stop.
@@ -17,7 +17,7 @@ use crate::limits::Leg;
 use crate::profile::Profile;
 use crate::queue::Queue;
 
-/// Sum of gains from which it is counted anew, so that it keeps its digits.
+/// Sum of gains from which it is counted again, so that it keeps its digits.
 const RECOUNT: f64 = 1e9;
 
 /// A leg with the squared speed at its start: by the forward pass, later settled.
@@ -33,7 +33,7 @@ struct Planned {
 struct Candidate {
     /// The leg that starts there, counted from the start of the path.
     leg: u64,
-    /// Settled when all gains come to this.
+    /// Settled when all gains reach this.
     at: f64,
 }
 

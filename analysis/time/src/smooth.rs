@@ -21,7 +21,7 @@ use crate::limits::Leg;
 use crate::profile::Profile;
 use crate::ramp::{Curve, gain};
 
-/// Gain from which it is counted anew, so that it keeps its digits.
+/// Gain from which it is counted again, so that it keeps its digits.
 const RECOUNT: f64 = 1e9;
 /// What a limit may be over by: digits.
 const DIGITS: f64 = 1e-9;
@@ -256,7 +256,7 @@ impl Span<'_> {
         most
     }
 
-    /// Where to keep a limit, from one gain to another, and at which speed.
+    /// A held limit: from which gain to which, and its speed.
     fn hold(&self, limit: Limit, [a, b]: [f64; 2], [from, to]: [f64; 2]) -> (f64, f64, f64) {
         let up = a + self.ramp(from, limit.speed, |gain| (a, (a + gain).min(b)));
         let down = b - self.ramp(limit.speed, to, |gain| ((b - gain).max(a), b));

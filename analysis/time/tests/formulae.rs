@@ -257,7 +257,7 @@ fn rotary_axes() {
 }
 
 /// Without acceleration too: the rate along the line is no rate of a rotary axis, and an axis of which
-/// nothing is stated has a working value, which is told.
+/// nothing is stated has a working value, which is reported.
 #[test]
 fn rotary_axes_without_acceleration() {
     let alone = |m: &Machine| seconds(Model::Ideal, m, Way::new().rapid(&[0.0, 0.0, 0.0, 90.0]));

@@ -1,4 +1,4 @@
-//! The path mode that the program has in force, and how far a control looks ahead.
+//! The path mode that the program has active, and how far a control looks ahead.
 
 mod shop;
 

@@ -1,4 +1,4 @@
-//! What is no move: times, what stops the path, and what is taken for granted.
+//! What is no move: times, what stops the path, and what is assumed.
 
 mod shop;
 

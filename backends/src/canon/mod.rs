@@ -1,8 +1,8 @@
 //! Writer of the canonical stream, one call a line, as NIST and the case study print it.
 //!
 //! Every coordinate is absolute; an axis that a statement does not name gets the place where it
-//! stands, or `_` if that is not known, cannot be said exactly, or would take up a length offset
-//! that no statement has taken up yet. Modes that change no call print nothing. Structure (cycles,
+//! stands, or `_` if that is not known, cannot be stated exactly, or would apply a length offset
+//! that no statement has applied yet. Modes that change no call print nothing. Structure (cycles,
 //! patterns, control, calls) has been expanded by passes before; what still arrives is refused.
 //!
 //! The calls are listed at the reader (`ncc_frontends::canon`).
@@ -48,7 +48,7 @@ pub struct Writer {
     at: Tracker,
     /// Where the axes stand before the first statement.
     start: [Option<Nanos>; AXES],
-    /// What the text has in force; `None` after a setting that may be skipped.
+    /// What the text has active; `None` after a setting that may be skipped.
     units: Option<Units>,
     plane: Option<Plane>,
     feed_mode: Option<FeedMode>,
@@ -434,7 +434,7 @@ impl Writer {
         Ok(())
     }
 
-    /// A Z word takes up the length offset, unless the block may be skipped.
+    /// A Z word applies the length offset, unless the block may be skipped.
     #[inline]
     fn took_up(&mut self, to: &Point, s: &Stmt) {
         self.offset_waits &= to.get(Axis::Z).is_none() || s.skip.is_some();
@@ -501,7 +501,7 @@ impl Writer {
     }
 }
 
-/// What is in force after a setting that may be skipped.
+/// What is active after a setting that may be skipped.
 fn after<T: PartialEq>(in_force: &mut Option<T>, value: T, s: &Stmt) {
     let value = Some(value);
     let unsure = s.skip.is_some() && *in_force != value;

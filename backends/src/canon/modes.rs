@@ -78,7 +78,7 @@ impl Writer {
         Ok(())
     }
 
-    /// Says the plane, if another one is in force.
+    /// Says the plane, if another one is active.
     pub(super) fn use_plane(&mut self, plane: Plane, out: &mut Vec<u8>) {
         if self.plane != Some(plane) {
             out.extend_from_slice(b"SELECT_PLANE(");
@@ -88,7 +88,7 @@ impl Writer {
         }
     }
 
-    /// A statement's unit of length, said first if it is another than that in force.
+    /// A statement's unit of length, said first if it is another than the active one.
     #[inline]
     pub(super) fn use_units(&mut self, unit: Unit, out: &mut Vec<u8>) {
         let units = match unit {
@@ -104,7 +104,7 @@ impl Writer {
         }
     }
 
-    /// The feed mode that the program takes for granted, said before the first feed.
+    /// The feed mode that the program assumes, said before the first feed.
     pub(super) fn feed_mode(&mut self, assumed: &Modes, out: &mut Vec<u8>) {
         let mode = self.at.modes.feed_mode.or(assumed.feed_mode);
         if let Some(mode) = mode

@@ -5,10 +5,10 @@
 //! zero in millimetres, and every call is written where the interpreter makes it: a block's calls in its
 //! own order, cycles as its expansion of them, its notes on modes that make no call, what it does before
 //! the first block and after the last. Subprograms are followed into. Cutter radius compensation makes no
-//! call: what is printed is the path of the tool's centre, by the radius that the program or the table of
+//! call: what is printed is the tool centre path, by the radius that the program or the table of
 //! tools states.
 //!
-//! Points are in the program's coordinates, as shifted and turned as they are; what sets or takes up an offset prints
+//! Points are in the program's coordinates, as shifted and turned as they are; what sets or applies an offset prints
 //! its values. Refused is what needs a table (lengths of tools that neither the program nor a profile has stated), and
 //! what this control has no call for.
 
@@ -134,7 +134,7 @@ struct Printer<'p> {
     /// The rule by which the interpreter takes arcs.
     arcs: ArcRule,
     out: String,
-    /// Modes, position and the cycle in force.
+    /// Modes, position and the active cycle.
     at: Tracker,
     /// The same by execution, which knows the frames.
     exec: Exec,
@@ -142,7 +142,7 @@ struct Printer<'p> {
     mist: bool,
     flood: bool,
     offset: u16,
-    /// The feed that was said last.
+    /// The feed that was stated last.
     feed: Option<f64>,
     /// The limit of the spindle that the block says.
     limit: Option<f64>,
@@ -153,14 +153,14 @@ struct Printer<'p> {
     /// Whether calls of moves wait in the interpreter's queue for what the next one is.
     beside: bool,
     /// How corners are taken, how far from the path, and how far off moves made one may lie, in the unit that was
-    /// in force.
+    /// active.
     path: PathMode,
     within: f64,
     merged: f64,
     ended: bool,
 }
 
-/// The program with coordinates in place of polar words, and the path of the tool's centre in place of contours.
+/// The program with coordinates in place of polar words, and the tool centre path in place of contours.
 fn write_offset_path(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
     let compensating = Compensating {
         rules: Rules::INTERPRETER,
@@ -215,7 +215,7 @@ impl Printer<'_> {
             let _ = writeln!(self.out, "COMMENT(\"{}\")", String::from_utf8_lossy(text.trim_ascii_start()));
         }
         self.limit = self.limit_of(stmts)?;
-        // The feed of a cycle's block; a cycle that is called up with other words says it once more.
+        // The feed of a cycle's block; a cycle that is activated with other words says it once more.
         for stmt in stmts {
             if let Op::StartCycle(cycle) = &stmt.op
                 && let Some(feed) = &cycle.feed
@@ -353,7 +353,7 @@ impl Printer<'_> {
                     self.work_turn(offset);
                 }
                 Data::Offset { .. } => self.note(notes::OFFSET_SET),
-                // The block's entry is printed behind all that it sets; radii have no place in that call.
+                // The block's entry is printed after all that it sets; radii have no place in that call.
                 Data::Tool { .. } | Data::Measured { .. } => {}
                 // It is kept without a call.
                 Data::Position(_) => {}
@@ -390,7 +390,7 @@ impl Printer<'_> {
             Op::SetMotionControlMode(control) => {
                 self.path = control.mode;
                 self.within = match &control.within {
-                    // In the unit in force.
+                    // In the active unit.
                     Some(within) => literal(within)?,
                     None => 0.0,
                 };
@@ -448,7 +448,7 @@ impl Printer<'_> {
         text.get(..6).is_some_and(|word| word.eq_ignore_ascii_case(b"PRINT,"))
     }
 
-    /// The way of taking corners that is in force. The tolerance of moves that are made one goes with it.
+    /// The way of taking corners that is active. The tolerance of moves that are made one goes with it.
     fn path_control(&mut self) {
         match self.path {
             PathMode::ExactPath => self.call("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"),
@@ -518,7 +518,7 @@ impl Printer<'_> {
         self.target(&Point::default())
     }
 
-    /// A length in the unit in force, or an angle.
+    /// A length in the active unit, or an angle.
     fn shown(&self, axis: usize, nanos: Nanos) -> f64 {
         let unit = if axis < 3 && self.inch() { 25.4 } else { 1.0 };
         nanos as f64 / ONE as f64 / unit

@@ -1,4 +1,4 @@
-//! What is in force in the text that has been written, as far as the text itself says it.
+//! What is active in the text that has been written, as far as the text itself says it.
 
 use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, SpindleMode, Units};
 use ncc_ir::expr::num::Num;
@@ -12,13 +12,13 @@ pub(crate) struct ActiveModes {
     pub plane: Option<Plane>,
     pub feed_mode: Option<FeedMode>,
     pub spindle_mode: Option<SpindleMode>,
-    /// The limit of the spindle that the program has in force.
+    /// The limit of the spindle that the program has active.
     pub limit: Option<Num>,
     pub level: Option<ReturnLevel>,
-    /// The feed, if it was said in the units and the feed mode that are in force.
+    /// The feed, if it was stated in the units and the feed mode that are active.
     pub feed: Option<Num>,
     /// Whether the distance mode was put in by this writer, so that statements which take what the
-    /// source has in force cannot be written.
+    /// source has active cannot be written.
     pub our_distance: bool,
     /// The same for the plane.
     pub our_plane: bool,

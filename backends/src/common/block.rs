@@ -20,7 +20,7 @@ pub(crate) enum Part {
     Offset,
     /// Axis, centre and cycle words.
     Axes,
-    /// The word of the corner behind the move.
+    /// The word of the corner after the move.
     Corner,
     /// The feed.
     Feed,

@@ -97,7 +97,7 @@ pub(crate) struct AdviceCode {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ProbeCode {
     pub code: Code,
-    /// Whether it stays in force.
+    /// Whether it stays active.
     pub stays: bool,
     /// Whether its block must say a feed.
     pub own_feed: bool,
@@ -146,11 +146,11 @@ pub(crate) struct Codes {
     /// No work offset.
     pub no_origin: Option<Code>,
     pub no_shift: Option<Code>,
-    /// A shift of the origin suspended, and taken up again.
+    /// A G92 shift suspended, and restored.
     pub origin_shift: [Option<Code>; 2],
     /// What fills the slots of the coordinate chain.
     pub frames: FrameCodes,
-    /// Takes up a length with control of the tool's tip.
+    /// Applies a length with tool centre point control.
     pub tip: Option<Code>,
     pub no_compensation: Option<Code>,
     /// To the left, to the right.
@@ -163,14 +163,14 @@ pub(crate) struct Codes {
     pub own_radius: bool,
     /// Machine coordinates without the tool's length, and with it.
     pub machine: [Option<Code>; 2],
-    /// To points of the machine, with the letter that names a further one.
+    /// To reference points, with the letter that names a further one.
     pub references: Vec<(ReferencePoint, Code, Option<Letter>)>,
-    /// Probing moves, each with whether its code stays in force as a motion's does.
+    /// Probing moves, each with whether its code stays active as a motion's does.
     pub probes: Vec<(Probe, ProbeCode)>,
     pub detours: [Option<Code>; 2],
     /// Tables that values are put into.
     pub tables: Vec<DataCode>,
-    /// A length by its value: in place of the one in force, added to it.
+    /// A length by its value: in place of the active one, added to it.
     pub stated_length: [Option<Code>; 2],
     /// Where the axes stand as stored position 1, 2.
     pub store_position: [Option<Code>; 2],
@@ -188,7 +188,7 @@ pub(crate) struct Codes {
     pub spindle_clockwise: Option<Code>,
     pub spindle_counterclockwise: Option<Code>,
     pub spindle_stop: Option<Code>,
-    /// Makes the tapping cycle called up next a rigid one.
+    /// Makes the tapping cycle activated next a rigid one.
     pub rigid_tapping: Option<Code>,
     /// Stop of the spindle at the control's own angle, and the words of another one.
     pub orient: Option<Code>,
@@ -217,7 +217,7 @@ pub(crate) struct Codes {
     pub call: Option<CallCode>,
     /// A call with arguments.
     pub macro_call: Option<CallCode>,
-    /// The same behind every move, and the end of that.
+    /// The same after every move, and the end of that.
     pub calls_at_moves: Option<(CallCode, Code)>,
     /// All words of a dwell in a block of its own.
     pub dwells: Vec<Dwell>,
@@ -235,7 +235,7 @@ pub(crate) struct Codes {
     pub tool: Option<Letter>,
     /// Entry of the length table, for a code of the block.
     pub entry: Option<Letter>,
-    /// Entry of the length table, taken up by the word itself.
+    /// Entry of the length table, applied by the word itself.
     pub corrector: Option<Letter>,
 }
 

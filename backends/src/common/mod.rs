@@ -1,5 +1,5 @@
 //! What writers share: the block that is put together, the codes of a dictionary, numbers as a control
-//! writes them, what is in force in the text, expressions, and a writer of words that the writers of blocks hold; and
+//! writes them, what is active in the text, expressions, and a writer of words that the writers of blocks hold; and
 //! quoted texts of the two text forms.
 //!
 //! ```text

@@ -276,7 +276,7 @@ pub(crate) fn write<const N: usize>(to: &mut [u8; N], mut at: usize, n: Shaped) 
     end
 }
 
-/// Thousandths in a unit of the last digit, by digits after the point.
+/// Thousandths in one least increment, by digits after the point.
 static THOUSANDTHS: [u64; 4] = [1000, 100, 10, 1];
 
 /// A number as text, for diagnostics and for words off the hot path.

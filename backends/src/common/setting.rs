@@ -1,4 +1,4 @@
-//! Settings: statements that move nothing and stay in force, and the codes that other statements need
+//! Settings: statements that move nothing and stay active, and the codes that other statements need
 //! before them.
 
 use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, SpindleMode, Units};
@@ -7,7 +7,7 @@ use ncc_ir::program::{FrameSlot, Op};
 
 use super::codes::Code;
 
-/// A setting: a statement that moves nothing and stays in force.
+/// A setting: a statement that moves nothing and stays active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Setting {
     Units(Units),

@@ -1,4 +1,4 @@
-//! Cycles and patterns of positions, as the `ir` text has them; and what goes in step with the spindle.
+//! Cycles and patterns of positions, as the `ir` text has them; and what goes synchronised with the spindle.
 
 use ncc_ir::canon::{Axis, Spindle, Turn};
 use ncc_ir::expr::Expr;

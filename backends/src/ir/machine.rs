@@ -1,4 +1,4 @@
-//! Statements of the `ir` text about points of the machine and values of the control's tables.
+//! Statements of the `ir` text about reference points and values of the control's tables.
 
 use ncc_ir::canon::{Axis, Side};
 use ncc_ir::program::{CutterRadius, Data, DataMode, Reference, ReferencePoint, ToolValue};
@@ -8,7 +8,7 @@ use super::frame::words;
 use super::words::{point, put};
 use crate::common::quoted::write_whole;
 
-/// A point of the machine, the axes that go there, and by way of which point.
+/// A reference point, the axes that go there, and through which intermediate point.
 pub(super) fn reference(r: &Reference, out: &mut Vec<u8>) {
     let (name, number) = match r.point {
         ReferencePoint::Home => ("home", None),

@@ -33,7 +33,7 @@ const VERSION: &str = "ncc-ir 1";
 /// Writes the `ir` text.
 pub struct Writer {
     eol: &'static [u8],
-    /// Facts that the text has said were taken for granted.
+    /// Facts that the text has said were assumed.
     assumed: Modes,
     /// Whether a line is begun, to which a joined statement can be added.
     begun: bool,

@@ -269,7 +269,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
     }
 }
 
-/// Writes the line of facts that were taken for granted.
+/// Writes the line of facts that were assumed.
 pub(super) fn assumed(m: &Modes, out: &mut Vec<u8>) {
     let turned = |motion| match motion {
         Motion::Traverse => "traverse",

@@ -1,4 +1,4 @@
-//! Points by radius and angle, and which way round axes turn, as the `ir` text has them.
+//! Points by radius and angle, and the direction in which axes turn, as the `ir` text has them.
 
 use ncc_ir::canon::RotaryWay;
 use ncc_ir::program::{Polar, PoleFrom, PoleWords, SetPole};
@@ -43,7 +43,7 @@ pub(super) fn polar_point(polar: &Polar, out: &mut Vec<u8>) {
     put(") ", out);
 }
 
-/// Which way round rotary axes go.
+/// The direction in which rotary axes turn.
 pub(super) fn rotary_ways(ways: &[Option<RotaryWay>; 3], out: &mut Vec<u8>) {
     let named = ["A ", "B ", "C "].into_iter().zip(ways).filter_map(|(axis, way)| Some((axis, (*way)?)));
     for (place, (axis, way)) in named.enumerate() {

@@ -1,7 +1,7 @@
-//! Places of the control's tables by a computed number: `$P_UIFR[R1,X,TR]`.
+//! Entries of the control's tables by a computed number: `$P_UIFR[R1,X,TR]`.
 //!
 //! Which numbers there can be is shown where the program is read, and again where the output is read back. A work offset
-//! that is set so may be the one in force, which is called up again.
+//! that is set so may be the active one, which is activated again.
 
 use ncc_dialects::DataKind;
 use ncc_ir::canon::Axis;

@@ -1,4 +1,4 @@
-//! Canned cycles: called by name, for the blocks that follow or once where the tool stands.
+//! Canned cycles: called by name, for the blocks that follow or once where the tool is.
 //!
 //! The reference plane is the one that the cycle states. Where it states none it is the retract plane itself,
 //! without a safety distance: the control's checks then see it as the surface, and the moves are the same whatever
@@ -27,8 +27,8 @@ use crate::common::setting::Inserted;
 const PITCH_IN_MM: &str = "1";
 const PITCH_IN_INCHES: &str = "3";
 
-/// How many of a block's statements are one call: a cycle called up with its hole where the tool
-/// stands, and its end if that follows.
+/// How many of a block's statements are one call: a cycle activated with its hole where the tool is,
+/// and its end if that follows.
 pub(super) fn called_here(rest: &[Stmt]) -> usize {
     let [call, hole, further @ ..] = rest else { return 1 };
     let joined = |s: &Stmt| s.joined && s.skip == call.skip;
@@ -106,8 +106,8 @@ impl Writer {
         to.put(role, text)
     }
 
-    /// Calls a cycle up: for the blocks that follow, or once where the tool stands. Then the program
-    /// may go on with it, or not: it is called up for the next blocks when one needs it.
+    /// Calls a cycle up: for the blocks that follow, or once where the tool is. Then the program
+    /// may go on with it, or not: it is activated for the next blocks when one needs it.
     pub(super) fn start_cycle(
         &mut self,
         cycle: &Cycle,
@@ -146,7 +146,7 @@ impl Writer {
         match with {
             1 => {
                 self.owed = Some(text);
-                // What the spindle does for a tap that makes no hole is left open: it is called up for one.
+                // What the spindle does for a tap that makes no hole is left open: it is activated for one.
                 let waits = matches!(&cycle.kind, CycleKind::Tap(tap) if !tap.chuck) && stmt.skip.is_none();
                 if waits { Ok(()) } else { self.pay_call(sink) }
             }
@@ -309,7 +309,7 @@ impl Writer {
         to.put(Role::ThreadPitch, format!("{sign}{whole}{point}{rest}"))
     }
 
-    /// Plane of return, retract plane and bottom.
+    /// Return plane, retract plane and bottom.
     fn planes(
         &mut self,
         planes: &ActiveCycle,
@@ -461,14 +461,14 @@ impl Writer {
         }
     }
 
-    /// Whether a clearance is the one that the control takes for the depth of the hole where none is said.
+    /// Whether a clearance is the one that the control takes for the depth of the hole where none is stated.
     fn is_own_clearance(&self, cycle: &Cycle, row: &CallRow) -> bool {
         let CycleKind::DrillPeck { first, clearance: Clearance::Stated(said), .. } = &cycle.kind else {
             return false;
         };
         let reference = match self.above_reference(cycle, row) {
             Some((reference, _)) => reference,
-            // For a first peck of its own another plane is said.
+            // For a first peck of its own another plane is stated.
             None if first.is_some() => return false,
             None => &cycle.retract.value,
         };
@@ -498,7 +498,7 @@ impl Writer {
         }
     }
 
-    /// A hole at a position, with the cycle in force.
+    /// A hole at a position, with the active cycle.
     pub(super) fn hole(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.pay_call(sink)?;
         if self.standing.modal == Modal::Off {
@@ -529,13 +529,13 @@ impl Writer {
         self.words.point(to, span, sink)
     }
 
-    /// The plane of the cycle in force.
+    /// The plane of the active cycle.
     pub(super) fn hole_plane(&self) -> Option<Plane> {
         let cycle = self.words.tracker.cycle.as_ref();
         cycle.and_then(|c| c.cycle.plane.known()).or(self.words.active.plane)
     }
 
-    /// Words for the position where the tool stands: a cycle is made only after a block with some.
+    /// Words for the position where the tool is: a cycle is made only after a block with some.
     fn here(&self, plane: Plane) -> Result<Point, Fault> {
         let (first, second, _) = plane.axes();
         let unit = match self.words.active.units {

@@ -1,7 +1,7 @@
 //! Values that a program puts into the control's tables: settable frames, lengths and radii of tools.
 //!
-//! A work offset counts with its new values when it is called up the next time (PGA, frames); one that is in force is
-//! called up again at once. Fine shifts of work offsets are taken for zero, and that is told.
+//! A work offset counts with its new values when it is activated the next time (PGA, frames); one that is active is
+//! activated again at once. Fine shifts of work offsets are taken for zero, and that is reported.
 
 use ncc_dialects::{DataKind, DataRow, Meaning, Quantity};
 use ncc_ir::canon::{Axis, Units};
@@ -26,7 +26,7 @@ impl Writer {
     /// A value of a table.
     ///
     /// # Errors
-    /// A value that no variable holds, or one of a work offset that may be in force, and nobody knows.
+    /// A value that no variable holds, or one of a work offset that may be active, and nobody knows.
     pub(super) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let units = self.words.tracker.modes.units;
         let metric =
@@ -90,7 +90,7 @@ impl Writer {
         }
     }
 
-    /// The work offset in force counts with its new values; where nobody knows it, it must be called up before it counts.
+    /// The active work offset counts with its new values; where nobody knows it, it must be activated before it counts.
     pub(super) fn call_up_again(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let Some(now) = self.words.tracker.modes.work_offset else {
             self.stale = true;
@@ -104,10 +104,10 @@ impl Writer {
         again
     }
 
-    /// Before another statement, where a work offset has new values that may be in force.
+    /// Before another statement, where a work offset has new values that may be active.
     ///
     /// # Errors
-    /// It counts from there on, or may be come to in another way.
+    /// It counts from there on, or another path reaches it.
     pub(super) fn called_up(&mut self, op: &Op) -> Result<(), Fault> {
         self.stale &= !matches!(op, Op::SetOriginOffsets(_));
         let counts = matches!(
@@ -169,7 +169,7 @@ impl Writer {
         }
     }
 
-    /// Whether the control has a work offset: those behind G57 by its own datum.
+    /// Whether the control has a work offset: those after G57 by its own datum.
     ///
     /// # Errors
     /// It is stated that it has not.
@@ -196,7 +196,7 @@ fn in_millimetres(data: &Data) -> Option<Data> {
             n.unit = Unit::Mm;
             return Some(());
         }
-        // One that counts what is in force is inches here.
+        // One that counts what is active is inches here.
         if !matches!(n.unit, Unit::Inch | Unit::Entry) {
             return None;
         }

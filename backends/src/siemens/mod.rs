@@ -1,9 +1,9 @@
 //! The back-end of the Sinumerik's own language.
 //!
 //! Blocks of letters and numbers are written as in every other dialect, by a writer of words within; this room
-//! has what is said in another form: cycles and patterns called with arguments, frames, arcs by
+//! has what is stated in another form: cycles and patterns called with arguments, frames, arcs by
 //! name, edges of tools, messages, labels and units. Codes, names and the order of arguments come
-//! from the dictionary. What it has no word for is a fault at the statement, never silent.
+//! from the dictionary. What it lacks is a fault at the statement, never silent.
 //!
 //! ```text
 //! a cycle of drilling    `MCALL CYCLE81(3,3,0,-6)`
@@ -54,7 +54,7 @@ use crate::common::table::WritesBlocks;
 use crate::common::words::Words;
 use crate::common::{Sink, number};
 
-/// Whether the text has a cycle in force for the blocks that follow.
+/// Whether the text has an active cycle for the blocks that follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Modal {
     Off,
@@ -63,19 +63,19 @@ enum Modal {
     Doubtful,
 }
 
-/// What is in force in the text besides codes.
+/// What is active in the text besides codes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Standing {
     modal: Modal,
-    /// The feed that the program has in force, if it is known.
+    /// The feed that the program has active, if it is known.
     feed: Option<Num>,
     /// The speed of the spindle, if it is known.
     speed: Option<Num>,
-    /// Whether the text has the same in force; a boring cycle leaves none that is known.
+    /// Whether the text has the active same; a boring cycle leaves none that is known.
     feed_said: bool,
     /// Whether a tool change has made an edge active that the program did not ask for.
     edge_waits: bool,
-    /// Whether that change is one of a subprogram, after which the length in force is not the one of the start.
+    /// Whether that change is one of a subprogram, after which the active length is not the one of the start.
     edge_of_call: bool,
     /// The block-skip level of that change, where no other one waits: a length of the same level answers it.
     edge_level: Option<u8>,
@@ -121,16 +121,16 @@ pub struct Writer {
     /// The machine keeps its own lengths in inches.
     inch_machine: bool,
     standing: Standing,
-    /// A cycle that the program has in force and the text has not, because it was called once for a
+    /// A cycle that the program has active and the text has not, because it was called once for a
     /// hole where the tool stood.
     owed: Option<String>,
     /// Whether a cycle has been called in this unit.
     cycled: bool,
     /// Whether the next straight move is in machine coordinates.
     raw: bool,
-    /// Whether a work offset has new values that may be in force, and has not been called up since.
+    /// Whether a work offset has new values that may be active, and has not been activated since.
     stale: bool,
-    /// Whether inches have been said.
+    /// Whether inches have been stated.
     inches: bool,
     /// Whether the feed counts in the machine's basic system, and which that is.
     basic_feed: bool,
@@ -138,11 +138,11 @@ pub struct Writer {
     /// The name of an arc's radius, with the sign before its number, and the form of that.
     radius: Option<(String, Format)>,
     names: Names,
-    /// Subprograms that are called while a cycle is in force.
+    /// Subprograms that are called while a cycle is active.
     under_cycle: BTreeSet<Box<str>>,
     /// Labels made for repetitions.
     repeats: u32,
-    /// Whether the program goes back to one that is not in the text.
+    /// Whether the program returns to one that is not in the text.
     alone: bool,
     /// Whether a subprogram has been written, so that every unit needs its header.
     units: bool,
@@ -272,12 +272,12 @@ impl Writer {
         self.words.close_block(stmts, sink);
     }
 
-    /// Writes the first of the statements that are left of a block, and those that are said with it;
+    /// Writes the first of the statements that are left of a block, and those that are stated with it;
     /// gives their number.
     fn one(&mut self, rest: &[Stmt], sink: &mut Sink) -> usize {
         let stmt = &rest[0];
         if stmt.skip.is_some() && self.owed.is_some() {
-            // What is in force must not depend on the switch.
+            // What is active must not depend on the switch.
             self.words.flush(false, sink);
             self.words.block.skip = None;
             if let Err(fault) = self.pay_call(sink) {
@@ -329,7 +329,7 @@ impl Writer {
         Ok(())
     }
 
-    /// Ends the cycle that the text may have in force, before what must not make a hole.
+    /// Ends the cycle that the text may have active, before what must not make a hole.
     fn end_modal(&mut self, sink: &mut Sink) -> Result<(), Fault> {
         self.owed = None;
         if self.standing.modal == Modal::Off {
@@ -348,7 +348,7 @@ impl Writer {
         Ok(())
     }
 
-    /// Calls up what the program has in force, before holes are made with it.
+    /// Calls up what the program has active, before holes are made with it.
     fn pay_call(&mut self, sink: &mut Sink) -> Result<(), Fault> {
         if let Some(call) = self.owed.take() {
             let modal = self.call_modal()?;
@@ -384,7 +384,7 @@ impl Writer {
         self.words.feed_rate(&Expr::Num(Num { unit, ..*n }), span, sink)
     }
 
-    /// States the feed that is in force in the program, if the text has lost it.
+    /// States the feed that is active in the program, if the text has lost it.
     fn restate_feed(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !self.standing.feed_said {
             if let Some(feed) = self.standing.feed {
@@ -402,7 +402,7 @@ impl Writer {
         Letter { letter, format: Format::new(self.dialect.numbers(quantity), counts) }
     }
 
-    /// A value behind the letter of its word; what is computed stands behind `=`.
+    /// A value after the letter of its word; what is computed stands after `=`.
     fn lettered(
         &mut self,
         name: &str,
@@ -415,7 +415,7 @@ impl Writer {
         Ok(format!("{name}{between}{}", self.value(letter, value, span, sink)?))
     }
 
-    /// A value as it is written behind a name.
+    /// A value as it is written after a name.
     fn value(&mut self, letter: &Letter, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         if let Expr::Node(_) = value {
             let text = self.words.behind(value, None, span, sink)?;
@@ -433,7 +433,7 @@ impl Writer {
         Ok(digits(self.words.number(letter, value, span, sink)?))
     }
 
-    /// A length that the translation knows, in the unit in force.
+    /// A length that the translation knows, in the active unit.
     fn length(&self, nanos: Nanos, letter: &Letter) -> Result<String, Fault> {
         let unit = match self.words.active.units {
             Some(Units::Mm) => Unit::Mm,

@@ -37,7 +37,7 @@ impl Writer {
         Ok(())
     }
 
-    /// What has to be said before a move so that it is only that.
+    /// What has to be stated before a move so that it is only that.
     pub(super) fn before_move(
         &mut self,
         to: &Point,
@@ -139,7 +139,7 @@ impl Writer {
             None => None,
         };
         self.arc_block(code, name, &arc.to, inserted, &words, span, sink)?;
-        // A name is said again in every block: nothing else tells it from the last code.
+        // A name is stated again in every block: nothing else tells it from the last code.
         self.words.active.motion = motion;
         Ok(())
     }

@@ -26,7 +26,7 @@ const WORDS: [&str; 67] = [
 pub(super) struct Name {
     /// The name.
     pub(super) text: String,
-    /// What is told of it: once, if it is not the program's own.
+    /// What is reported of it: once, if it is not the program's own.
     pub(super) changed: Option<Fault>,
 }
 

@@ -1,7 +1,7 @@
 //! Patterns of positions: a call for each kind.
 //!
-//! Where the control chooses the end at which it begins by where the tool stands, a pattern that
-//! does not begin there is told as an assumption.
+//! Where the control chooses the end at which it begins by where the tool is, a pattern that
+//! does not begin there is reported as an assumption.
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole as Role};
 use ncc_ir::canon::{Axis, Distance, Plane};
@@ -30,7 +30,7 @@ struct Direction {
 }
 
 impl Writer {
-    /// A pattern of holes with the cycle in force.
+    /// A pattern of holes with the active cycle.
     pub(super) fn pattern(&mut self, pattern: &Pattern, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.pay_call(sink)?;
         if self.standing.modal == Modal::Off {
@@ -83,7 +83,7 @@ impl Writer {
         }
     }
 
-    /// Centre or start, absolute; where the tool stands if the pattern does not say it.
+    /// Centre or start, absolute; where the tool is if the pattern does not say it.
     fn corner(
         &mut self,
         words: Option<&[Coord; 2]>,

@@ -1,7 +1,7 @@
-//! Blocks that are nothing but a hole or an arc, written straight from their statements where nothing is to be said besides.
+//! Blocks that are nothing but a hole or an arc, written straight from their statements where nothing is to be stated besides.
 //!
 //! ```text
-//! X10. Y20. under a cycle that the text has called up | G2 X10. Y0. I5. J0.
+//! X10. Y20. under a cycle that the text has activated | G2 X10. Y0. I5. J0.
 //! ```
 //!
 //! Anything unusual is left untouched to the general way (`cycle`, `motion`), which writes the same text.
@@ -19,7 +19,7 @@ use crate::common::table::WritesBlocks;
 use crate::common::words::Behind;
 
 impl Writer {
-    /// Writes a block that is nothing but a hole of the cycle in force, or leaves it untouched.
+    /// Writes a block that is nothing but a hole of the active cycle, or leaves it untouched.
     pub(super) fn plain_hole(&mut self, stmt: &Stmt, to: &Point, out: &mut Vec<u8>) -> bool {
         let tracker = &self.words.tracker;
         let plane = tracker.cycle.as_ref().and_then(|in_force| tracker.plane(in_force.cycle.plane));

@@ -21,7 +21,7 @@ pub(super) const LONGEST_MESSAGE: usize = 200;
 
 impl Writer {
     /// Puts a statement into the block at hand, or into a new one if it does not fit. `with` is how
-    /// many statements of its block it says: with a cycle's call, the hole where the tool stands and
+    /// many statements of its block it says: with a cycle's call, the hole where the tool is and
     /// the end.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl Writer {
                 }
                 self.words.statement(stmt, sink)
             }
-            // Every call of a cycle says its plane of return.
+            // Every call of a cycle says its return plane.
             Op::SetReturnLevel(_) => Ok(()),
             Op::UseLengthUnits(_) => {
                 self.basic_feed = false;
@@ -158,7 +158,7 @@ impl Writer {
                 let row = row.ok_or_else(|| cannot(ToolsLack::TipControl))?;
                 self.alone(&row.name, sink)
             }
-            // It is said with the plane that it belongs to.
+            // It is stated with the plane that it belongs to.
             Op::OrientToolAxis(_) => Err(cannot(FramesLack::AxisApartFromTilt)),
             Op::ClearFrame(FrameSlot::Tilt) => {
                 let row = self.dialect.name_for(NameMeaning::Code(Meaning::SetTilt));

@@ -1,6 +1,6 @@
-//! Tilted working planes: one call says the plane, and whether and which way the tool is turned onto it.
+//! Tilted working planes: one call says the plane, and whether and which way the tool is swivelled to it.
 //!
-//! What retracts to the machine's zero in its block is said by the call, where it turns the tool. No record of
+//! What retracts to the machine's zero in its block is stated by the call, where it turns the tool. No record of
 //! the machine's kinematics is named: the only one, or the first, counts. Where the program does not say the way, the one towards minus is written.
 
 use ncc_dialects::{Meaning, NameMeaning, Quantity};
@@ -16,10 +16,10 @@ use ncc_passes::retract;
 use super::{Sink, Writer};
 use crate::common::fault::cannot;
 
-/// A plane, and how the tool is turned onto it in the same block.
+/// A plane, and how the tool is swivelled to it in the same block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swivel<'s> {
-    /// The end of the plane before it, which a plane set anew brings by itself.
+    /// The end of the plane before it, which a plane set again brings by itself.
     ends: usize,
     /// Moves to the machine's zero before it: along Z, and then X and Y.
     retracts: usize,

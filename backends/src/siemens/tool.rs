@@ -1,7 +1,7 @@
 //! Tools and their edges.
 //!
-//! A tool change makes edge 1 active by itself. Where the program has another length in force, that
-//! is said before the drilling axis moves; where it says an edge in time, nothing is to be added.
+//! A tool change makes edge 1 active by itself. Where the program has another length active, that
+//! is stated before the drilling axis moves; where it says an edge in time, nothing is to be added.
 
 use ncc_dialects::Role;
 use ncc_ir::canon::Axis;
@@ -96,7 +96,7 @@ impl Writer {
         }
     }
 
-    /// Says the length that the program has in force, if a tool change has made another active and
+    /// Says the length that the program has active, if a tool change has made another active and
     /// the drilling axis is about to move.
     pub(super) fn settle_edge(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !std::mem::replace(&mut self.standing.edge_waits, false) {

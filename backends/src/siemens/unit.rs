@@ -146,7 +146,7 @@ impl Writer {
         Ok(())
     }
 
-    /// What is in force is not known: after a call, at a label.
+    /// What is active is not known: after a call, at a label.
     pub(super) fn forget(&mut self) {
         self.words.forget();
         (self.standing.feed, self.standing.speed, self.standing.feed_said) = (None, None, true);

@@ -2,9 +2,9 @@
 //! that hand values over.
 //!
 //! A variable of whole numbers rounds what it is given, and a truth value is any number but 0: what a program says of
-//! that is said by the type. Subprograms with parameters are made known where they are called (`EXTERN`).
+//! that is stated by the type. Subprograms with parameters are made known where they are called (`EXTERN`).
 //!
-//! Not here: decisions and loops (`computing`), and how expressions are spelt (the word writer's).
+//! Not here: branches and loops (`computing`), and how expressions are spelt (the word writer's).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,7 +26,7 @@ use super::unit::tell;
 use super::{Modal, Sink, Writer};
 use crate::common::fault::{cannot, cannot_compute};
 
-/// Digits behind the point that a real number has in a message, zeros at their end left out.
+/// Digits after the point that a real number has in a message, zeros at their end left out.
 const DIGITS: u8 = 9;
 
 /// What calls and definitions need to know of the program.
@@ -129,7 +129,7 @@ impl Writer {
         let (Var::Local(name) | Var::Common(name)) = var else { return };
         let dialect = self.dialect;
         let taken = |name: &str| dialect.name_row(name).is_some() || dialect.call_row(name).is_some();
-        // Behind the program's name, of a parameter that is the caller's variable.
+        // After the program's name, of a parameter that is the caller's variable.
         let own = name.rsplit('.').next().unwrap_or(name);
         let text = tell(self.names.variable(own, &taken), at, sink);
         self.words.variables.insert(name.clone(), text);
@@ -207,7 +207,7 @@ impl Writer {
         Ok(Some(format!("PROC {name}({}){attributes}", all.join(", "))))
     }
 
-    /// The head of a subprogram that stands alone, with parameters.
+    /// The head of a standalone subprogram, with parameters.
     #[cold]
     pub(super) fn main_parameters(&mut self, main: &Procedure, sink: &mut Sink) {
         let span = main.body.first().map_or(Span::default(), |stmt| stmt.span);
@@ -231,7 +231,7 @@ impl Writer {
             return Ok(String::new());
         }
         let takes = self.variables.takes.get(&call.name).cloned().unwrap_or_default();
-        // One that is left out behind the others is zero (PGA, calls with parameters); a variable of the caller's is not.
+        // One that is left out after the others is zero (PGA, calls with parameters); a variable of the caller's is not.
         let left_out = takes.get(call.arguments.len()..);
         if left_out.is_none_or(|left_out| left_out.iter().any(|parameter| parameter.reference.is_some())) {
             return Err(cannot_compute(RunTimeFlow::CallOtherArguments));
@@ -321,7 +321,7 @@ impl Writer {
         let to = self.words.spelling(None)?.target(to)?;
         let mut value = self.of_type(kind, value, span, sink)?;
         if element && value.starts_with('(') {
-            // Behind an element of an array, brackets hold the values of several (PGA, arrays: FIELD[0]=(1,2,3)).
+            // After an element of an array, brackets hold the values of several (PGA, arrays: FIELD[0]=(1,2,3)).
             value.insert_str(0, "0 + ");
         }
         self.tell_number(&to, span, sink);

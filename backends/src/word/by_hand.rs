@@ -4,10 +4,10 @@
 //! T3 M06      →      M5 M9 G53 G0 Z0 T3 M0 (TOOL 3)
 //! ```
 //!
-//! One block does it all: the spindle and the coolant are off before Z goes up, and the program stops behind that. The
+//! One block does it all: the spindle and the coolant are off before Z goes up, and the program stops after that. The
 //! reader takes exactly this block for a change.
 //!
-//! Not here: the spindle that starts again behind it (`passes::side_effects`), and the length of the tool, which no
+//! Not here: the spindle that starts again after it (`passes::side_effects`), and the length of the tool, which no
 //! program knows (`passes::length_by_hand`).
 
 use ncc_dialects::{BY_HAND, FILE_PER_TOOL, TOOL_CHANGE};

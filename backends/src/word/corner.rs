@@ -1,4 +1,4 @@
-//! The word that rounds or chamfers the corner behind a move. It stands in the block of that move.
+//! The word that rounds or chamfers the corner after a move. It stands in the block of that move.
 
 use ncc_ir::canon::CornerShape;
 use ncc_ir::diag::Fault;

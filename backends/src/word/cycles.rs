@@ -25,17 +25,17 @@ use crate::common::number::WordValue;
 use crate::common::setting::{Inserted, Setting};
 use crate::common::{Sink, number};
 
-/// A cycle that the program has in force.
+/// A cycle that the program has active.
 #[derive(Clone, Debug)]
 pub(crate) struct Held {
     pub cycle: Cycle,
-    /// Whether the text has called it up, on every way.
+    /// Whether the text has called it up, on every path.
     pub in_text: bool,
     /// Skip level of its call.
     skip: Option<u8>,
     /// Block number of its call, if that block has not been written.
     number: Option<u32>,
-    /// The cycle that the text had in force when this one was called up, so that words which have
+    /// The cycle that the text had active when this one was activated, so that words which have
     /// not changed need not be written.
     before: Option<Box<Cycle>>,
     /// The feed that the text states for it.
@@ -52,7 +52,7 @@ impl Held {
     }
 }
 
-/// Words of a cycle's call; of a change of the cycle in force, those that change.
+/// Words of a cycle's call; of a change of the active cycle, those that change.
 struct CallWords {
     /// Letter of the bottom.
     depth_letter: u8,
@@ -86,7 +86,7 @@ impl Writer {
                 held.before = Some(Box::new(before.cycle));
             }
             Some(before) if before.skip.is_none() && !before.in_text => {
-                // Its feed stays in force though it has made no hole.
+                // Its feed stays active though it has made no hole.
                 held.cycle.feed = held.cycle.feed.or(before.cycle.feed);
                 (held.before, held.feed) = (before.before, before.feed);
             }
@@ -146,7 +146,7 @@ impl Writer {
         self.words.point(to, span, sink)
     }
 
-    /// Words for the position where the tool stands, on a control that needs some for a hole.
+    /// Words for the position where the tool is, on a control that needs some for a hole.
     fn stand_words(&self) -> Result<Point, Fault> {
         let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.words.active.plane);
         let (first, second, _) = plane.unwrap_or(Plane::Xy).axes();
@@ -212,7 +212,7 @@ impl Writer {
         Ok(())
     }
 
-    /// A pitch that is said by the feed per revolution has as many digits as that.
+    /// A pitch that is stated by the feed per revolution has as many digits as that.
     fn check_pitch(&self, cycle: &Cycle) -> Result<(), Fault> {
         let feed = cycle.feed.as_ref().map_or(self.words.active.feed, Expr::literal);
         let by_feed = matches!(cycle.kind, CycleKind::Tap(_))
@@ -225,7 +225,7 @@ impl Writer {
         }
     }
 
-    /// Calls a held cycle up without a hole, before what relies on it being in force.
+    /// Calls a held cycle up without a hole, before what relies on it being active.
     pub(crate) fn call_up_now(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if !self.dialect.cycles.hole_on_definition || self.held.as_ref().is_none_or(|h| h.in_text) {
             return Ok(());
@@ -243,7 +243,7 @@ impl Writer {
     }
 
     /// Writes the call of a cycle, with the first position in its block if `at` says one. Unless the
-    /// block is to say the code, a change of the cycle in force is written by the words that change.
+    /// block is to say the code, a change of the active cycle is written by the words that change.
     fn call_up(
         &mut self,
         mut held: Held,
@@ -421,7 +421,7 @@ impl Writer {
     }
 
     /// The words that say how deep the pecks are, or how far fine boring shifts. Pecks that decrease, and pecks
-    /// of one depth, stay in force until the cycle ends: which of them count then, nobody knows.
+    /// of one depth, stay active until the cycle ends: which of them count then, nobody knows.
     fn peck_words(
         &mut self,
         row: &CycleCode,

@@ -141,7 +141,7 @@ impl Writer {
                 self.words.check_unit(Num::int(1, num.unit), span)?;
                 num.unit = Unit::One;
             }
-            // What counts in the unit in force does so in the control's variable as well.
+            // What counts in the active unit does so in the control's variable as well.
             (None, Some([mm, inch]), Expr::Num(num)) if num.trimmed().scale <= mm.min(inch) => {
                 num.unit = Unit::One;
             }

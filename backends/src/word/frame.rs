@@ -117,7 +117,7 @@ impl Writer {
         self.o_alone_ends(&mut sink);
         self.words.no_event(&mut sink);
         if self.stop_text.take().is_some() {
-            // No stop has come behind it that could say it.
+            // No stop has come after it that could say it.
             sink.report(cannot(OperatorLack::OperatorMessage), Span::default());
         }
         if self.dialect.program.o_words && !self.main_ends && self.words.tracker.compensated {
@@ -128,7 +128,7 @@ impl Writer {
     }
 }
 
-/// Whether nothing goes on behind a body; nothing if it has no statement that does anything.
+/// Whether nothing goes on after a body; nothing if it has no statement that does anything.
 pub(super) fn ends(body: &[Stmt]) -> Option<bool> {
     let last = body.iter().rev().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_)))?;
     let over = if let Op::Control(control) = &last.op

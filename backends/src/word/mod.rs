@@ -2,7 +2,7 @@
 //!
 //! Everything that differs from control to control comes from the dictionary. Statements of one
 //! block are written as one block where the control can read it so, in the order in which posts
-//! write words. What the dictionary has no word for is a fault at the statement, never silent.
+//! write words. What the dictionary lacks is a fault at the statement, never silent.
 //!
 //! ```text
 //! a cycle of drilling    `G99 G81 X10. Z-6. R3. F100.`
@@ -40,11 +40,11 @@ use crate::common::words::Words;
 /// Choices of the dictionary's options that decide how a word reads back.
 #[derive(Clone, Copy, Debug)]
 struct Options {
-    /// The corrector word takes up a length; else it means nothing and cannot carry one.
+    /// The corrector word applies a length; else it means nothing and cannot carry one.
     corrector_counts: bool,
     /// A bolt circle's positive step is clockwise.
     circle_clockwise: bool,
-    /// A bolt circle without centre words is about program zero; else about where the tool stands.
+    /// A bolt circle without centre words is about program zero; else about where the tool is.
     circle_about_zero: bool,
     /// A grid's words are the whole extent of a row; else the pitch.
     grid_extent: bool,
@@ -58,29 +58,29 @@ pub struct Writer {
     pub(crate) words: Words,
     dialect: &'static Dialect,
     options: Options,
-    /// Whether nothing goes on behind what has been written of the main procedure.
+    /// Whether nothing goes on after what has been written of the main procedure.
     main_ends: bool,
     held: Option<Held>,
     /// Holes that the word of repetition makes after the one at hand.
     repeats: usize,
     /// What the program stop that comes next says.
     stop_text: Option<Text>,
-    /// A cycle has said a dwell that stays in force for others: for those of its series, or for all.
+    /// A cycle has said a dwell that stays active for others: for those of its series, or for all.
     dwell_left: bool,
-    /// Whether the pecks that the text has in force decrease, if it has said any since a cycle ended.
+    /// Whether the pecks that the text has active decrease, if it has said any since a cycle ended.
     pecks_left: Option<bool>,
     told_corner: bool,
     /// Blocks that others repeat, or that are jumped to.
     labels: repeat::Labels,
     /// What is known of a program that computes.
     computing: macros::computing::Computing,
-    /// Whether calls behind moves are being written, and how far.
+    /// Whether calls after moves are being written, and how far.
     at_moves: macros::modal_call::AtMoves,
     /// What is known of its O words.
     o_words: macros::o_words::OWords,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
-    /// Whether lengths are taken up with control of the tool's tip.
+    /// Whether lengths take effect with tool centre point control.
     tip: bool,
     /// Whether it was reported that entry 0 of the length table is taken for none.
     told_no_length: bool,
@@ -219,7 +219,7 @@ impl Writer {
         self.writes_plainly() && self.words.plain_block(block, sink)
     }
 
-    /// Forgets everything that is in force: after a call, at a procedure's start.
+    /// Forgets everything that is active: after a call, at a procedure's start.
     fn forget(&mut self) {
         self.words.forget();
         self.held = None;

@@ -1,4 +1,4 @@
-//! Moves: arcs, and moves to points of the machine.
+//! Moves: arcs, and moves to reference points.
 //!
 //! An arc's centre is written in the dialect's own form, computed where it has to be from where the written text itself
 //! puts the tool.
@@ -29,7 +29,7 @@ use crate::common::{Sink, number};
 type CentreWords = [Option<(u8, WordValue)>; 3];
 
 impl Writer {
-    /// A move to a point of the machine, by way of the point that it names or of where it stands.
+    /// A move to a reference point, through the intermediate point that it names or of where it stands.
     pub(crate) fn reference(&mut self, to: &Reference, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let (point, number) = match to.point {
             ReferencePoint::Further(n) => (ReferencePoint::Further(0), Some(n)),
@@ -147,7 +147,7 @@ impl Writer {
         Ok(Cow::Owned(arc))
     }
 
-    /// Whether an arc has a word for a linear axis outside its plane.
+    /// Whether an arc supports a linear axis outside its plane.
     fn leaves_plane(&self, arc: &Arc) -> bool {
         let normal = arc.plane.known().or(self.words.active.plane).map(|p| p.axes().2);
         arc.to.axes.iter().enumerate().any(|(at, word)| {

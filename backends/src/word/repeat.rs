@@ -46,9 +46,9 @@ pub(crate) struct Labels {
     all: Vec<Label>,
     /// The label that ends with the block at hand.
     ending: Option<usize>,
-    /// Whether units, plane and distance mode are changed behind the first label.
+    /// Whether units, plane and distance mode are changed after the first label.
     changed: [bool; 3],
-    /// Whether cycles are called up, or end, within repeated blocks.
+    /// Whether cycles are activated, or end, within repeated blocks.
     cycles: bool,
 }
 
@@ -137,7 +137,7 @@ impl Writer {
         Ok(())
     }
 
-    /// What is in force is not known, but for modes that nothing changes, and the cycle, which is called up
+    /// What is active is not known, but for modes that nothing changes, and the cycle, which is activated
     /// again.
     fn forget_all_but_cycle(&mut self) {
         let (held, force) = (self.held.take(), self.words.active);

@@ -30,7 +30,7 @@ impl Writer {
         }
         let known = self.words.codes.surface_limit.and_then(|_| limit.literal());
         let limit = known.ok_or_else(|| cannot(SpindleLack::SpeedLimit))?;
-        // It is said with the surface speed that follows.
+        // It is stated with the surface speed that follows.
         if self.words.surfaces.unlimited || self.words.active.spindle_mode == Some(SpindleMode::Surface) {
             return Err(cannot(SpindleLack::LimitAfterSurfaceSpeed));
         }

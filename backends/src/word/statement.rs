@@ -104,7 +104,7 @@ impl Writer {
                 self.words.detour = Some(code.ok_or_else(|| cannot(MachineLack::Detour))?);
                 Ok(())
             }
-            // It is said with the length that follows.
+            // It is stated with the length that follows.
             Op::UseToolCentrePoint(on) if codes.tip.is_some() || !on => {
                 self.tip = *on;
                 Ok(())
@@ -293,7 +293,7 @@ impl Writer {
     }
 }
 
-/// The milliseconds of computed seconds that are said by them.
+/// The milliseconds of computed seconds that are stated by them.
 fn milliseconds(seconds: &Expr) -> Option<&Expr> {
     let Expr::Node(node) = seconds else { return None };
     match &**node {

@@ -89,7 +89,7 @@ pub(crate) fn lines(ops: Vec<Op>) -> Vec<Stmt> {
     blocks(ops.into_iter().map(|op| vec![op]).collect())
 }
 
-/// What every program of these tests takes for granted.
+/// What every program of these tests assumes.
 pub(crate) fn metric() -> Modes {
     Modes {
         units: Some(Units::Mm),

@@ -174,7 +174,7 @@ fn a_cycle_once_is_called_for_more_only_if_more_holes_follow() {
     let call = "CYCLE81(10,3,0,-6)";
     let expected = format!("G1 X1\n{call}\nG1 X2\n{call}\nMCALL {call}\nG0 Y1\nMCALL\nG0 X3\n");
     assert_eq!(text(&stmts).0, expected);
-    // Nor may a switch decide whether it is in force.
+    // Nor may a switch decide whether it is active.
     let mut stmts = blocks(vec![vec![rapid("X1.")], here(), vec![hole("Y1.")], vec![hole("Y2.")]]);
     stmts[3].skip = Some(1);
     assert_eq!(text(&stmts).0, format!("G0 X1\n{call}\nMCALL {call}\n/Y1\nY2\n"));
@@ -219,7 +219,7 @@ fn a_feed_goes_with_its_move_and_not_before_the_end_of_a_cycle() {
     assert_eq!(text(&stmts).0, format!("G0 X0\n{call}X1\nMCALL\nG1 X2 F200\n{call}MCALL\nG1 X3 F90\n"));
 }
 
-/// Holes that are nothing but their places are written without the general way, and leave the same behind.
+/// Holes that are nothing but their places are written without the general way, and leave the same state.
 #[test]
 fn plain_holes_and_the_general_way_write_the_same() {
     let holes = ["X1. Y2.", "X3.5", "Y-4.25", "", "X1. Z5.", "X0.12345 Y2.", "X1.", "X2."].map(hole);

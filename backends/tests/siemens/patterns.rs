@@ -25,7 +25,7 @@ fn with(pattern: Pattern) -> Vec<ncc_ir::program::Stmt> {
     lines(vec![rapid("X-15. Y-65."), drill, Op::Pattern(Box::new(pattern)), Op::EndCycle])
 }
 
-/// The line of the pattern, and what was told.
+/// The line of the pattern, and what was reported.
 fn line(pattern: Pattern) -> (String, Vec<Fault>) {
     let (text, faults) = told(&with(pattern));
     (text.lines().nth(2).unwrap_or_default().to_owned(), faults)

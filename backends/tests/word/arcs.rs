@@ -91,7 +91,7 @@ fn planes_have_their_own_letters() {
     assert_eq!(clean("fanuc", &stmts), "G00 X0. Y0. Z0.\nG18\nG02 X10. Z0. I5. K0.\n");
     let (mach9, _) = text("mach9", &stmts);
     assert_eq!(mach9, "G0X0.Y0.Z0.\nG18\nG2X10.Z0.I5.K0.\n");
-    // A plane that is not in force is put in, and one word outside the plane is no centre.
+    // A plane that is not active is put in, and one word outside the plane is no centre.
     let yz = Arc { plane: Fact::Known(Plane::Yz), centre: centre(Start, "9.", "5.", ""), ..zx };
     let yz = Arc { to: point("Y10. Z0."), ..yz };
     let stmts = lines(vec![rapid("Y0. Z0."), Op::ArcFeed(Box::new(yz))]);

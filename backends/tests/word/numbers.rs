@@ -40,7 +40,7 @@ fn rounding_of_incremental_words_does_not_add_up() {
     // 6 × 0.3333333 is 1.9999998; written are 0.333 × 4 and 0.334 × 2, which is 2.
     assert_eq!(text, "G00 X0.\nG91\nG01 X0.333\nX0.334\nX0.333\nX0.333\nX0.334\nX0.333\n");
     assert_eq!(diags.len(), 6);
-    // Absolute words begin anew.
+    // Absolute words begin again.
     let stmts = lines(vec![rapid("X0.00049"), on("X1.00049"), on("X2.")]);
     assert_eq!(crate::text("fanuc", &stmts).0, "G00 X0.\nG01 X1.\nX2.\n");
 }

@@ -353,7 +353,7 @@ fn what_a_skipped_block_changes_is_not_known_after_it() {
     stmts[3].skip = Some(2);
     stmts[4].skip = Some(1);
     assert_eq!(clean("fanuc", &stmts), "G01 X0.\n/G00 X1.\nG00 X2.\n/2 G01 X3.\n/M08\n");
-    // A block that says what is in force leaves it known.
+    // A block that says what is active leaves it known.
     let mut same = lines(vec![feed("X0."), on("X1."), on("X2.")]);
     same[1].skip = Some(1);
     assert_eq!(clean("mach9", &same), "G1X0.\n/X1.\nX2.\n");

@@ -1,4 +1,4 @@
-//! What several verbs are asked alike: how a program is read, executed and timed, and how much is told of
+//! What several verbs are asked alike: how a program is read, executed and timed, and how much is reported of
 //! it. A heading of the help is the verb's. The colour of messages is asked of all verbs at once, in `args`.
 
 use std::path::PathBuf;
@@ -19,12 +19,12 @@ pub struct Reading {
     /// Dialect of the programs, or `auto` to recognise each [default: the machine's, else auto]
     #[arg(long, value_name = "DIALECT")]
     pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
+    /// Set an option of the dialect's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     pub from_option: Vec<(String, String)>,
 }
 
-/// Where a program begins. What is taken for granted without, a verb adds to the help.
+/// Where a program begins. What is assumed without, a verb adds to the help.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct StartPosition {
     /// Where the tool stands before the first block, in program coordinates, mm and degrees:
@@ -76,7 +76,7 @@ impl Switches {
 /// What counts as the same.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Tolerance {
-    /// How far lengths may be apart, in mm [default: half a unit of the coarser side's last digit]
+    /// How far lengths may be apart, in mm [default: half the coarser side's least increment]
     #[arg(long, value_name = "MM", value_parser = millimetres)]
     pub tolerance: Option<Nanos>,
 }
@@ -136,10 +136,10 @@ pub struct Setting {
     pub start_time: f64,
 }
 
-/// How much is told.
+/// How much ncc reports.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Verbosity {
-    /// Say everything with its place, assumptions too, not only the summary
+    /// Report everything with its place, assumptions too, not only the summary
     #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
     pub verbose: bool,
     /// Say errors only, and show no progress
@@ -148,7 +148,7 @@ pub struct Verbosity {
 }
 
 impl Verbosity {
-    /// Which diagnostics are told.
+    /// Which diagnostics are reported.
     pub fn loudness(self) -> Loudness {
         match (self.quiet, self.verbose) {
             (true, _) => Loudness::Quiet,

@@ -60,7 +60,7 @@ pub struct Cli {
     #[arg(long, global = true, value_name = "mm|inch", value_enum, hide_possible_values = true)]
     pub units: Option<UnitsArg>,
     /// What becomes of an M code that the source's dialect does not know: `M31=drop` leaves it out,
-    /// `M31=carry` writes it as it stands, `M31=M88` writes another one
+    /// `M31=carry` writes it unchanged, `M31=M88` writes another one
     #[arg(long, global = true, value_name = "CODE=WHAT", value_parser = MCode::read)]
     pub m_code: Vec<MCode>,
     /// Leave out all calls of a program that is not at hand, with their arguments: `RAPORT=drop`,
@@ -209,10 +209,10 @@ pub struct Translate {
     /// The program; `-` for stdin. Several, and folders of programs, go into a folder: -o FOLDER
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
-    /// Decide a question that the source's dictionary leaves open
+    /// Set an option of the source's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What to translate")]
     pub from_option: Vec<(String, String)>,
-    /// Decide a question that the target's dictionary leaves open
+    /// Set an option of the target's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What to translate")]
     pub to_option: Vec<(String, String)>,
     /// Where it begins.
@@ -284,7 +284,7 @@ pub struct Translate {
     pub no_head: bool,
 
     /// How canon is written: rs274 lists the calls as LinuxCNC's stand-alone interpreter prints them,
-    /// compensated contours by the path of the tool's centre; it is a listing, and no program
+    /// compensated contours by the tool centre path; it is a listing, and no program
     /// [default: plain]
     #[arg(
         long,
@@ -330,13 +330,13 @@ pub struct Translate {
     #[arg(long, value_name = "FILE", help_heading = "What is reported")]
     pub report: Option<PathBuf>,
     /// Write to this file where every line of the result comes from, as JSON; `ncc why` reads it, by
-    /// itself if it is named as the result with `.map.json` behind
+    /// itself if it has the name of the result and `.map.json`
     #[arg(long, value_name = "FILE", conflicts_with = "no_verify", help_heading = "What is reported")]
     pub map: Option<PathBuf>,
     /// Print the program in between on stderr, each time that a pass has run: its name, or `all`
     #[arg(long, value_name = "PASS", value_parser = crate::print_after::name, help_heading = "What is reported")]
     pub print_after: Option<String>,
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
     /// Messages for people, or as JSON, one object a line; of several programs, one document on stdout

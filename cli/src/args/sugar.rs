@@ -85,7 +85,7 @@ pub fn rewrite(arguments: Vec<OsString>) -> Said {
     Said::Plain(arguments)
 }
 
-/// `--assume milling` as one argument. The option may have no value, so that clap takes one only behind `=`.
+/// `--assume milling` as one argument. The option may have no value, so that clap takes one only after `=`.
 fn assumed(arguments: Vec<OsString>) -> Vec<OsString> {
     let mut all: Vec<OsString> = Vec::with_capacity(arguments.len());
     let mut options = true;

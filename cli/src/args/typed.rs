@@ -1,4 +1,4 @@
-//! What users type behind options: its forms, and how they are read.
+//! Values of options: their forms, and how they are read.
 
 use std::fmt;
 
@@ -102,7 +102,7 @@ pub(crate) fn start(text: &str) -> Result<Start, String> {
             format!("`{word}` is no axis with a decimal, such as {}15.588", axis.letter() as char)
         })?;
         if start[axis as usize].replace(value).is_some() {
-            return Err(format!("{} stands twice", axis.letter() as char));
+            return Err(format!("{} is given twice", axis.letter() as char));
         }
     }
     Ok(start)

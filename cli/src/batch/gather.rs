@@ -34,7 +34,7 @@ pub(super) enum Reason {
     Hidden,
     /// Its extension is none of the source's dialect.
     Extension,
-    /// A folder behind a link: it may lead back to where it stands.
+    /// A folder behind a link: it may lead back to its own folder.
     LinkedFolder,
     /// Neither file nor folder.
     NoFile,
@@ -114,7 +114,7 @@ pub(super) fn gather(named: &[PathBuf], extensions: &BTreeSet<String>, output: O
             found.take(path.clone(), PathBuf::new());
             continue;
         }
-        // The outputs may go beside the sources, if that is said.
+        // The outputs may go beside the sources, if that is stated.
         let output = output.as_ref().filter(|output| identity(path).as_ref() != Some(output));
         found.walk(path, extensions, output);
     }

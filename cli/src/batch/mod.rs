@@ -1,7 +1,7 @@
 //! `ncc translate` of several programs: files and folders in, a folder out.
 //!
 //! Each program is translated as it is by itself, on one of several threads; reports come in the order
-//! of the files. A program that comes to nothing does not stop the others. No output has the name of a
+//! of the files. A program that gives nothing does not stop the others. No output has the name of a
 //! source or of another program's output, nor that of a subprogram which is there and another: such
 //! programs are refused before anything is written.
 //!
@@ -123,7 +123,7 @@ pub(crate) fn run(
         make_folder(&folder.join("x"))?;
     }
     let store = match late {
-        true => Some(Mutex::new(Store::new().map_err(|e| Problem::file("write", "an anonymous file", &e))?)),
+        true => Some(Mutex::new(Store::new().map_err(|e| Problem::file("write", "a temporary file", &e))?)),
         false => None,
     };
     let bench = Bench {

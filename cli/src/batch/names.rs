@@ -66,7 +66,7 @@ pub(super) fn refused(
 
 /// The programs whose subprograms have names of files that are there with something else in them. What
 /// calls those was verified with them, and would call another text. A program that is there itself is
-/// written anew, with what it calls.
+/// written again, with what it calls.
 pub(super) fn at_odds_with_the_folder(
     claims: &[Claim],
     shown: &dyn Fn(usize) -> String,
@@ -74,9 +74,9 @@ pub(super) fn at_odds_with_the_folder(
     let there = claims.iter().filter(|claim| claim.shared.is_none() && claim.path.exists());
     let again: BTreeSet<usize> = there.map(|claim| claim.by).collect();
     let theirs = claims.iter().filter(|claim| again.contains(&claim.by));
-    let anew: BTreeSet<String> = theirs.map(|claim| key(&claim.path)).collect();
+    let rewritten: BTreeSet<String> = theirs.map(|claim| key(&claim.path)).collect();
     let mut refused = BTreeMap::new();
-    for claim in claims.iter().filter(|claim| !anew.contains(&key(&claim.path))) {
+    for claim in claims.iter().filter(|claim| !rewritten.contains(&key(&claim.path))) {
         if !claim.shared.is_some_and(|own| holds_another(&claim.path, &own)) {
             continue;
         }

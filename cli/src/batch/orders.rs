@@ -130,7 +130,7 @@ impl Orders {
 /// The usage error of a batch that names no folder for its outputs.
 pub(super) fn where_to(args: &Translate) -> Problem {
     let several = several(args);
-    Problem::usage(format!("{several}: where to?"), "name a folder for the outputs: -o FOLDER")
+    Problem::usage(format!("{several}: no output folder"), "name a folder for the outputs: -o FOLDER")
 }
 
 /// Names the program of a command, or says how many files and folders it names.

@@ -126,7 +126,7 @@ impl Row {
         }
     }
 
-    /// It comes to nothing.
+    /// It gives nothing.
     pub(super) fn fails(&mut self, result: Result, problem: &Problem) {
         self.result = result;
         self.reason = Some(problem.message.clone());
@@ -192,7 +192,7 @@ impl Summary<'_> {
         out.write_all(b"\n")
     }
 
-    /// The table, and what is to be said beside it.
+    /// The table, and what is to be stated beside it.
     pub(super) fn table(&self) -> String {
         let mut text = String::new();
         let cells = |row: &Row| {

@@ -37,7 +37,7 @@ use crate::report::tell;
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
 
-/// Outputs that wait, one after another in an anonymous file.
+/// Outputs that wait, one after another in a temporary file.
 #[derive(Debug)]
 pub(super) struct Store {
     file: File,
@@ -70,7 +70,7 @@ impl Store {
 #[derive(Debug)]
 pub(super) struct Held {
     pub(super) path: PathBuf,
-    /// The name that it has if another program has that one: of a subprogram that stands alone.
+    /// The name that it has if another program has that one: of a standalone subprogram.
     pub(super) otherwise: Option<PathBuf>,
     pub(super) range: Range<u64>,
     /// The hash of a subprogram, which several programs may have.
@@ -197,7 +197,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// What is to be told of a translation in one line.
+    /// What is to be reported of a translation in one line.
     fn account(
         &self,
         item: &Item,

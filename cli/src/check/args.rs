@@ -18,8 +18,8 @@ Examples:
   ncc explain NC0806                                what a rule means
 
 Exit code: 0 nothing but notes; 1 warnings or errors; 2 wrong usage; 4 a file could not be read or
-written. Blocks that ncc does not read are told as such; rules that would need to know what they do
-are silent until the program has said it again, and the summary says what was not checked.";
+written. ncc reports blocks that it does not read; rules that would need to know what they do
+are silent until the program has stated it again, and the summary says what was not checked.";
 
 /// `ncc check`.
 #[derive(Debug, Args)]
@@ -81,7 +81,7 @@ pub struct Check {
     #[arg(long, help_heading = "How the result looks")]
     pub schema: bool,
 
-    /// What is told.
+    /// What is reported.
     #[command(flatten)]
     pub telling: Verbosity,
 }

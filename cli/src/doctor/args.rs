@@ -34,10 +34,10 @@ pub struct Doctor {
     /// What is known of the machine to translate for
     #[arg(long, value_name = "MACHINE")]
     pub machine_to: Option<String>,
-    /// Decide a question that the source's dictionary leaves open
+    /// Set an option of the source's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     pub from_option: Vec<(String, String)>,
-    /// Decide a question that the target's dictionary leaves open
+    /// Set an option of the target's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     pub to_option: Vec<(String, String)>,
     /// Where it begins.
@@ -50,7 +50,7 @@ pub struct Doctor {
     #[arg(long, value_name = "FILE")]
     pub write_to: Option<PathBuf>,
 
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
 }

@@ -1,6 +1,6 @@
 //! `ncc doctor`: which facts about both machines a translation depends on.
 //!
-//! The program is translated as it would be, and every assumption that was told is asked back as a
+//! The program is translated as it would be, and every assumption that was reported is asked back as a
 //! question about one of the two machines. The answers have a place in a profile; a profile with
 //! exactly these questions can be written. Not here: which fact an assumption rests on
 //! (`ncc_machines::reading`).
@@ -262,7 +262,9 @@ fn questions_by_machine(about: &About, others: &[Diagnostic], asked: &[Question]
         }
     }
     if others.iter().any(|d| d.fault.gravity() == Gravity::Error) {
-        text.push_str("\nThe program is refused, so there may be more questions behind what stops it.\n");
+        text.push_str(
+            "\nThe program is refused, so there may be more questions after the block that stops it.\n",
+        );
     }
     let open = asked.iter().any(|q| q.side == Side::From).then_some("--write-from FILE");
     let open: Vec<&str> = open

@@ -26,7 +26,7 @@ pub(super) struct Question {
     pub(super) side: Side,
     /// Its place in a profile.
     pub(super) place: Place,
-    /// What is taken for granted.
+    /// What is assumed.
     pub(super) taken: String,
     /// What the place takes.
     pub(super) takes: String,

@@ -20,7 +20,7 @@ pub(super) fn profile(side: Side, about: &About, asked: &[Question], id: &str) -
         &mut text,
         &format!(
             "Facts about the machine that the translation of {} from {from} to {to} depends on. Fill in \
-             what is known; what stays \"\" stays an assumption, and is told. `ncc machines schema` \
+             what is known; what stays \"\" stays an assumption, and is reported. `ncc machines schema` \
              lists everything else that a profile can hold.",
             about.job.source_name
         ),

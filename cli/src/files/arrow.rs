@@ -14,7 +14,7 @@ use crate::registry::DialectRegistry;
 /// Why an arrow cannot be honoured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// stdout is no file, or cannot be told apart here.
+    /// stdout is no file, or cannot be compared here.
     NoFile,
     /// stdout is a file that bears no dialect's name.
     OtherFile,

@@ -68,7 +68,7 @@ impl Origin for OwnFile {
     }
 }
 
-/// Opens a source; `-` is stdin, which is kept in an anonymous file.
+/// Opens a source; `-` is stdin, which is kept in a temporary file.
 ///
 /// # Errors
 /// It cannot be read, or is too large.
@@ -112,7 +112,7 @@ pub(crate) fn text(path: &Path) -> Result<(String, String), Problem> {
     Ok((name, text))
 }
 
-/// How the refusal of such a text begins, behind its name.
+/// How the refusal of such a text begins, after its name.
 pub(crate) const AS_STORED: &str = "is not a part program as it is stored";
 
 /// Bytes at the beginning of a source by which its form is known.
@@ -174,7 +174,7 @@ fn refuse_stored(file: &mut File, shown: &str) -> Result<(), Problem> {
     Err(Problem { exit: Exit::Refused, message, help: vec![help] })
 }
 
-/// Keeps what can be read only once in an anonymous file.
+/// Keeps what can be read only once in a temporary file.
 fn spool(from: &mut dyn Read) -> io::Result<File> {
     let mut file = scratch::file()?;
     io::copy(&mut from.take(LARGEST + 1), &mut file).map_err(scratch::full)?;
@@ -279,7 +279,7 @@ fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>)
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path) -> Option<File> {
     use rustix::fs::{Mode, OFlags, open};
-    // By way of it such a file gets its name.
+    // Through it such a file gets its name.
     if !Path::new("/proc/self/fd").exists() {
         return None;
     }

@@ -11,7 +11,7 @@ Examples:
   ncc fmt part.nc                          lay it out, in place
   ncc fmt --check *.nc                     list the files that would change; exit code 1 if any
   ncc fmt --diff part.nc                   show what would change
-  ncc fmt part.nc --number 10:10           number the blocks anew, jumps with them
+  ncc fmt part.nc --number 10:10           renumber the blocks, jumps with them
   ncc fmt fanuc:- --stdout < part.nc       from stdin to stdout
 
 Words, comments and blank lines stay where they are, and the digits of numbers stay; what changes is
@@ -65,7 +65,7 @@ pub struct Fmt {
     #[command(flatten, next_help_heading = "How the result looks")]
     pub lines: Lines,
 
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
 }

@@ -127,7 +127,7 @@ pub fn of_text(
     text: &[u8],
     known: &DialectRegistry,
 ) -> Result<Vec<u8>, Problem> {
-    let memory = |e: io::Error| Problem::file("use", "an anonymous file", &e);
+    let memory = |e: io::Error| Problem::file("use", "a temporary file", &e);
     let job = Job { layout, ..Job::new(from.clone(), from, "text") };
     let mut nowhere = Buffer::no_color();
     let mut source = Source::of(Spool::of(text.to_vec()), "text");
@@ -173,7 +173,7 @@ fn laid_out(
                 && loudness == Loudness::Verbose
             {
                 let mut about = About { job, name: &shown, source: &mut source.file };
-                // What cannot be told changes nothing about what was done.
+                // What cannot be reported changes nothing about what was done.
                 let _ = human::print(err, &mut about, std::slice::from_ref(first), Loudness::Verbose);
             }
             done.shown =

@@ -2,9 +2,9 @@
 //!
 //! A listing to be held beside that interpreter's, no program: no control reads it. It is read back all the
 //! same (`read_back`), and leaves the house only if it does what the program does, or unverified if that is
-//! asked for, which is told: there is no place for a mark in the interpreter's form. Another judge is the
+//! asked for, which is reported: there is no place for a mark in the interpreter's form. Another judge is the
 //! interpreter itself, whose own test programs are printed as it prints them. Compensated contours are listed
-//! by the path of the tool's centre.
+//! by the tool centre path.
 //!
 //! ```text
 //! ncc linuxcnc to canon --style rs274 part.ngc    `N..... STRAIGHT_FEED(10.0000, 5.0000, 0.0000, …)`
@@ -97,7 +97,7 @@ pub(crate) fn run(
         }
     }
     let failed = found.iter().any(|d| matches!(d.fault, Fault::NotTheSame { .. }));
-    // What the interpreter starts with is known: nothing is taken for granted of it.
+    // What the interpreter starts with is known: nothing is assumed of it.
     found.retain(|d| d.fault.gravity() == Gravity::Error || job.refuses(d));
     let mut about = About { job, name: &source.shown, source: &mut source.file };
     let loudness = args.telling.loudness();

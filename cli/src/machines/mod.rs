@@ -63,7 +63,7 @@ pub fn run(args: &Machines, known: &DialectRegistry, err: &mut dyn WriteColor) -
     Ok(Exit::Done)
 }
 
-/// A profile by the name of a shipped one, or by its file. What is wrong with it is told on `err`.
+/// A profile by the name of a shipped one, or by its file. What is wrong with it is reported on `err`.
 ///
 /// # Errors
 /// There is none of that name, the file cannot be read, or the profile has faults.
@@ -160,7 +160,7 @@ pub(crate) fn count(n: usize, noun: &str) -> String {
 /// The profiles of both sides, by name or file.
 ///
 /// # Errors
-/// There is none, or it has faults; those are told on `err`.
+/// There is none, or it has faults; those are reported on `err`.
 pub(crate) fn find_both(
     from: Option<&str>,
     to: Option<&str>,

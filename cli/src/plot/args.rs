@@ -32,7 +32,7 @@ pub struct Plot {
     /// program the machine's, else auto]
     #[arg(long, value_name = "DIALECT", value_delimiter = ',', help_heading = "What is executed")]
     pub from: Vec<String>,
-    /// Decide a question that the dialect's dictionary leaves open; of one program only
+    /// Set an option of the dialect's dictionary; of one program only
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is executed")]
     pub from_option: Vec<(String, String)>,
     /// How it is executed and timed.
@@ -50,7 +50,7 @@ pub struct Plot {
         help_heading = "What is drawn"
     )]
     pub chart: Vec<ChartName>,
-    /// The way of the tool instead: plan, isometric
+    /// The tool path instead: plan, isometric
     #[arg(
         long,
         value_name = "plan|isometric",
@@ -63,7 +63,7 @@ pub struct Plot {
     #[arg(short, long, value_name = "FILE", help_heading = "What is drawn")]
     pub output: Option<PathBuf>,
 
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
 }

@@ -4,7 +4,7 @@
 //! it; from that a picture is drawn. Not here: drawing (ncc-plot), timing (`time`).
 //!
 //! ```text
-//! ncc plot --from mach9 part.cn -o part.svg    the way of the tool, seen from above
+//! ncc plot --from mach9 part.cn -o part.svg    the tool path, seen from above
 //! ```
 
 pub mod args;
@@ -51,7 +51,7 @@ impl Sink for Recorder {
 ///
 /// # Errors
 /// Wrong usage, a file that cannot be read or written, or a program without a way to draw. What is
-/// wrong with a program is told on `err`.
+/// wrong with a program is reported on `err`.
 pub(crate) fn run(args: &Plot, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let form = check(args)?;
     let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };

@@ -49,7 +49,7 @@ pub struct Init {
     /// The machine to translate for
     #[arg(long, value_name = "MACHINE")]
     pub machine_to: Option<String>,
-    /// Decide a question that the program's dictionary leaves open
+    /// Set an option of the program's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     pub from_option: Vec<(String, String)>,
 }

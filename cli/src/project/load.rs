@@ -82,7 +82,7 @@ impl Projects {
         known: &DialectRegistry,
         err: &mut dyn WriteColor,
     ) -> Result<Option<(Arc<Loaded>, PathBuf)>, Problem> {
-        // A folder that is not there is told where the program is opened.
+        // A folder that is not there is reported where the program is opened.
         let Ok(start) = fs::canonicalize(folder) else { return Ok(None) };
         let found =
             start.ancestors().map(|folder| folder.join(NAME)).find(|path| path.symlink_metadata().is_ok());
@@ -111,7 +111,7 @@ fn below_of(file: &Path, path: &Path) -> Option<String> {
     Some(parts.join("/"))
 }
 
-/// A path as it is told and used: from the working folder where it is below that or above it.
+/// A path as it is reported and used: from the working folder where it is below that or above it.
 fn near(path: &Path) -> PathBuf {
     let Some(here) = std::env::current_dir().ok().and_then(|here| fs::canonicalize(here).ok()) else {
         return path.to_owned();

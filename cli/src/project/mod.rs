@@ -46,7 +46,7 @@ impl DialectRegistry {
     /// What the project file says of a program.
     ///
     /// # Errors
-    /// The file cannot be read or has faults, which are told on `err`; two of its rows match the program.
+    /// The file cannot be read or has faults, which are reported on `err`; two of its rows match the program.
     pub(crate) fn project(
         &self,
         look: Look,
@@ -59,7 +59,7 @@ impl DialectRegistry {
     }
 }
 
-/// What the project file says of a program in a file. With `say`, a file of which no row is about it is told.
+/// What the project file says of a program in a file. With `say`, a file of which no row is about it is reported.
 ///
 /// # Errors
 /// As of [`DialectRegistry::project`].
@@ -83,7 +83,7 @@ pub(crate) fn row(
 
 /// Prints what a project file answers for a program, in a line, and each contradiction.
 pub(crate) fn note(shown: &str, used: &Used, err: &mut dyn WriteColor) {
-    // What cannot be told changes nothing about what is done.
+    // What cannot be reported changes nothing about what is done.
     let _ = writeln!(err, "{shown}: {}", used.line());
     for line in &used.overridden {
         let _ = writeln!(err, "  {line}");

@@ -60,7 +60,7 @@ pub(crate) struct Settled {
     pub(crate) include: Vec<PathBuf>,
     /// The folder of the outputs.
     pub(crate) output: Option<PathBuf>,
-    /// All of it, to be told.
+    /// All of it, to be reported.
     pub(crate) used: Arc<Used>,
 }
 

@@ -1,6 +1,6 @@
-//! Finds the map of a program and the source that it names; where there is no map, makes one anew.
+//! Finds the map of a program and the source that it names; where there is no map, makes one.
 //!
-//! A program or a source that is not the one of the map, byte for byte, is refused: what would be told of
+//! A program or a source that is not the one of the map, byte for byte, is refused: what would be reported of
 //! it need not be true.
 
 use std::fs::File;
@@ -89,7 +89,7 @@ fn changed(file: &str, map: &str, help: &str) -> Problem {
     }
 }
 
-/// A source with the programs behind it that it calls from files of their own.
+/// A source with the programs after it that it calls from files of their own.
 fn with_called(
     mut source: Source,
     document: &Document,

@@ -1,6 +1,6 @@
 //! `ncc why`: which lines of the source a line of a translated program comes from.
 //!
-//! `read` reads one line of a map, or `find` makes the map anew, and `why` tells about the line. Not here: how a map is
+//! `read` reads one line of a map, or `find` makes the map again, and `why` tells about the line. Not here: how a map is
 //! made (`ncc_driver::provenance`).
 //!
 //! ```text

@@ -166,7 +166,7 @@ impl<'de> Visitor<'de> for LineSeed {
         }
         let entry: Option<Entry> = list.next_element()?;
         if let Some(entry) = entry.as_ref().filter(|entry| entry.line != self.0) {
-            return Err(A::Error::custom(format!("line {} stands where {} belongs", entry.line, self.0)));
+            return Err(A::Error::custom(format!("line {} is in the place of line {}", entry.line, self.0)));
         }
         while list.next_element::<IgnoredAny>()?.is_some() {}
         Ok(entry)

@@ -229,7 +229,7 @@ fn tell(out: &mut dyn Write, answer: &Answer) -> io::Result<()> {
     rows(out, "Words of the source", &answer.source_rows)?;
     match answer.state {
         "known" => {}
-        "not executed" => return writeln!(out, "\nThe program does not come to this line."),
+        "not executed" => return writeln!(out, "\nThe program does not reach this line."),
         _ => return writeln!(out, "\nWhat is active there could not be found out."),
     }
     let said: Vec<&Modal> = answer.modal.iter().filter(|m| m.before.is_some() || m.after.is_some()).collect();

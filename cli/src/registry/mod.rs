@@ -1,7 +1,7 @@
 //! The dialects that a call knows: the built-in ones, and those of the files named by `--dialect`.
 //!
 //! A dictionary of a shop lives as long as the process, as the built-in ones do. What is wrong with it
-//! is told here, at its place in the file. Not here: what a dictionary means.
+//! is reported here, at its place in the file. Not here: what a dictionary means.
 
 pub(crate) mod recognised;
 
@@ -66,7 +66,7 @@ impl DialectRegistry {
     /// Those, and the ones that files define. Called once in a process: what is read is kept.
     ///
     /// # Errors
-    /// A file cannot be read, or is no dictionary; with `out`, the latter has been told there, with
+    /// A file cannot be read, or is no dictionary; with `out`, the latter has been reported there, with
     /// its place, and the problem has no words of its own.
     pub fn with(files: &[PathBuf], out: Option<&mut dyn WriteColor>) -> Result<DialectRegistry, Problem> {
         let mut known = DialectRegistry::built_in();

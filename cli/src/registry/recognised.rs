@@ -17,7 +17,7 @@ pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --
 /// The dialect of a source, recognised; with `say`, tells by what.
 ///
 /// # Errors
-/// It cannot be told for certain, or the source cannot be read.
+/// The dialect is not certain, or the source cannot be read.
 pub(crate) fn recognise(
     source: &mut Source,
     say: bool,

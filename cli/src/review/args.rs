@@ -15,12 +15,13 @@ Examples:
   ncc verify --cert part.json                         does the certificate hold?
   ncc verify --cert part.json --recheck a.cn b.nc     the same, of files that have other names now
 
-Both programs are executed in generated worlds, of which each has other offsets, lengths and modes at
-power-on, under every setting of the block-skip switches. What SRC relies on and never says is taken
-for granted, as its dialect or the profile of its machine has it, and told. What OUT relies on and
-never says is not: unless its dialect or the profile of its machine settles it, the worlds disagree
-about it, and OUT is not equal. Only what a translation into its dialect would not say either, and what
-neither of two programs for one control says, holds of OUT as of SRC; that is told too.
+Both programs are executed in generated test set-ups. Each has other offsets, lengths and modes at
+power-on, under every setting of the block-skip switches. What SRC relies on and never states is
+assumed, as its dialect or the profile of its machine has it, and reported. What OUT relies on and
+never states is not: unless its dialect or the profile of its machine settles it, the set-ups
+disagree about it, and OUT is not equal. Only what a translation into its dialect would not state
+either, and what neither of two programs for one control states, holds for OUT as for SRC; ncc
+reports that too.
 
 Exit code: 0 equal, or equal within the tolerance, and if a certificate is checked, all of it holds;
 1 different, or the certificate does not hold; 2 wrong usage; 4 a file could not be read or written;
@@ -51,10 +52,10 @@ pub struct Verify {
     /// The machine of OUT; with both, tools, offsets and lengths are the same by their names
     #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
     pub machine_to: Option<String>,
-    /// Decide a question that the dictionary of SRC leaves open
+    /// Set an option of the dictionary of SRC
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
     pub from_option: Vec<(String, String)>,
-    /// Decide a question that the dictionary of OUT leaves open
+    /// Set an option of the dictionary of OUT
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
     pub to_option: Vec<(String, String)>,
     /// Where SRC begins.
@@ -88,7 +89,7 @@ pub struct Verify {
     /// Print the JSON Schema of the certificate, and nothing else
     #[arg(long, help_heading = "What is reported")]
     pub schema: bool,
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
 }
@@ -102,7 +103,7 @@ pub struct Textconv {
     /// Its dialect, where it is not named with the file [default: recognised]
     #[arg(long, value_name = "DIALECT")]
     pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
+    /// Set an option of the dialect's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     pub from_option: Vec<(String, String)>,
 }

@@ -1,6 +1,6 @@
 //! Certificates checked again: the files first, by their hashes, then everything that was found.
 //!
-//! A certificate holds if a comparison that is made anew, of the same files as it was asked for then,
+//! A certificate holds if a comparison that is made again, of the same files as it was asked for then,
 //! gives the same document. Not here: making one (`verify`).
 
 use std::fs;
@@ -21,12 +21,12 @@ use crate::files;
 use crate::project::Look;
 use crate::registry::DialectRegistry;
 
-/// Longest value that is told whole, in characters.
+/// Longest value that is printed whole, in characters.
 const LONGEST: usize = 80;
-/// Disagreements that are told.
+/// Most disagreements that are reported.
 const SHOWN: usize = 20;
 
-/// Checks the certificate in a file again; `anew` are the programs, where they are not found by the
+/// Checks the certificate in a file again; `recheck` are the programs, where they are not found by the
 /// names in it.
 ///
 /// # Errors
@@ -34,15 +34,15 @@ const SHOWN: usize = 20;
 pub(crate) fn check_again(
     args: &Verify,
     file: &Path,
-    anew: Option<&[String; 2]>,
+    recheck: Option<&[String; 2]>,
     known: &DialectRegistry,
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let certificate = read(file)?;
     if let Some(option) = said_otherwise(args) {
         return Err(Problem::usage(
-            format!("{option} is said by the certificate"),
-            "leave it out; or compare anew: ncc verify SRC OUT",
+            format!("{option} is in the certificate"),
+            "leave it out; or compare again: ncc verify SRC OUT",
         ));
     }
     let mut known = known.clone();
@@ -55,14 +55,14 @@ pub(crate) fn check_again(
     known.add(&shops, Some(&mut *err))?;
     let operands = [0, 1].map(|side: usize| {
         let program = [&certificate.source, &certificate.output][side];
-        match anew {
+        match recheck {
             Some(names) => names[side].clone(),
             // A name that the certificate has is a path, whatever stands before a colon.
             None => format!("{}:{}", program.dialect, found(file, &program.file).display()),
         }
     });
     let from_stdin = [&certificate.source, &certificate.output].map(|program| is_stdin(&program.file));
-    if let Some(side) = from_stdin.iter().position(|is| *is).filter(|_| anew.is_none()) {
+    if let Some(side) = from_stdin.iter().position(|is| *is).filter(|_| recheck.is_none()) {
         return Err(Problem::usage(
             format!("the certificate's {} came from stdin", ["source", "output"][side]),
             "name the files: ncc verify --cert FILE --recheck SRC OUT",
@@ -171,12 +171,12 @@ fn read(file: &Path) -> Result<Document, Problem> {
                 message: format!(
                     "{shown} has version {version} of the form; this ncc reads version {VERSION}"
                 ),
-                help: vec!["check it with the ncc that it was made by, or make it anew".to_owned()],
+                help: vec!["check it with the ncc that made it, or make it again".to_owned()],
             });
         }
         None => return Err(none("it has no version".to_owned())),
     }
-    // From the text, so that what is wrong is told with its line.
+    // From the text, so that what is wrong is reported with its line.
     let certificate: Document = serde_json::from_slice(&bytes).map_err(|e| none(e.to_string()))?;
     // What nobody can have asked for.
     match certificate.asked.tolerance_mm {
@@ -233,7 +233,7 @@ fn nanos(mm: f64) -> Nanos {
     (mm * 1e9).round() as Nanos
 }
 
-/// What of a certificate a comparison made anew does not bear out: first the hashes of what it rests
+/// What of a certificate a comparison made again does not bear out: first the hashes of what it rests
 /// on, then everything else. By which names files are called, and which ncc made it, is no matter.
 pub fn disagreements(certificate: &Document, fresh: &Document) -> Vec<String> {
     let mut wrong = Vec::new();

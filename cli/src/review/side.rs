@@ -92,11 +92,11 @@ pub(crate) fn operand<'o>(
 
 /// Opens both sides of a comparison.
 ///
-/// A dialect that nobody names is recognised, and told on `err` where `say` is set. A text in which
+/// A dialect that nobody names is recognised, and reported on `err` where `say` is set. A text in which
 /// too little speaks for any dialect is read as the other side is, if nothing speaks against that.
 ///
 /// # Errors
-/// Wrong usage, a file that cannot be read, or a dialect that cannot be told for certain.
+/// Wrong usage, a file that cannot be read, or a dialect that is not certain.
 pub(crate) fn open(
     asked: [&Asked; 2],
     say: bool,
@@ -122,7 +122,7 @@ pub(crate) fn open(
     Ok([first.finish(a, say, known, err)?, second.finish(b, say, known, err)?])
 }
 
-/// A dialect that cannot be told is no wrong usage here: the programs could not be compared.
+/// An unknown dialect is no wrong usage here: the programs could not be compared.
 fn uncomparable(problem: Problem) -> Problem {
     match problem.exit {
         Exit::File => problem,

@@ -1,7 +1,7 @@
 //! `ncc git-textconv`: what a program does, one line an event, for git's own diff.
 //!
 //! Lines name no places of the text, so that a block which is put in changes no line but its own. A
-//! program that cannot be executed is printed as it is, and that is said. Exit code 0 always: git takes
+//! program that cannot be executed is printed as it is, and that is stated. Exit code 0 always: git takes
 //! anything else for a broken driver.
 
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
@@ -110,7 +110,7 @@ fn listed(
         if written.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     written?;
-    // What cannot be told changes nothing about what was listed.
+    // What cannot be reported changes nothing about what was listed.
     let _ = questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err);
     Ok(!course.refused)
 }

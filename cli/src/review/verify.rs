@@ -27,7 +27,7 @@ use ncc_driver::source::spool::Spool;
 /// Runs the verb.
 ///
 /// # Errors
-/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on `err`.
+/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is reported on `err`.
 pub fn run(args: &Verify, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;

@@ -37,7 +37,7 @@ pub struct Simulate {
     /// Dialect of the program, or `auto` to recognise it [default: the machine's, else auto]
     #[arg(long, value_name = "DIALECT", help_heading = "What is executed")]
     pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
+    /// Set an option of the dialect's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is executed")]
     pub from_option: Vec<(String, String)>,
     /// How it is executed and timed.
@@ -126,7 +126,7 @@ pub struct Simulate {
     #[arg(long, value_name = "MM", value_parser = from_zero, help_heading = "What it is held against")]
     pub tolerance: Option<f64>,
 
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
 }

@@ -34,7 +34,7 @@ use crate::project;
 use crate::registry::DialectRegistry;
 use crate::time::{self, Shop, args::Time};
 
-/// A program that was cut, and what it is told with.
+/// A program that was cut, and its report.
 struct Done {
     cut: CutProgram,
     source: Source,
@@ -46,7 +46,7 @@ struct Done {
 /// Runs the verb.
 ///
 /// # Errors
-/// Wrong usage, a file that cannot be read or written, or a program that cannot be cut. What is wrong with a program is told
+/// Wrong usage, a file that cannot be read or written, or a program that cannot be cut. What is wrong with a program is reported
 /// on `err`.
 pub(crate) fn run(
     args: &Simulate,
@@ -119,7 +119,7 @@ impl SetUp {
         let Some(row) = project::row(file, false, known, err)? else { return Ok(own) };
         let mut note = |option: &str, is_stated: bool, key: &str, value: String, line: usize| {
             if !args.telling.quiet {
-                // What cannot be told changes nothing about what is done.
+                // What cannot be reported changes nothing about what is done.
                 let _ = match is_stated {
                     true => writeln!(err, "{}", project::goes_before(option, &row, key, &value, line)),
                     false => writeln!(err, "{}: {}:{line}: {key} = {value}", file.display(), row.file.shown),
@@ -227,7 +227,7 @@ fn triangles(path: &Path) -> Result<Stock, Problem> {
 }
 
 /// Executes a program and cuts it, after the first one where it is compared with that; `None` where it was refused, which has
-/// been told.
+/// been reported.
 fn carry_out(
     args: &Simulate,
     file: &Path,

@@ -17,8 +17,8 @@ Examples:
   ncc time part.cn --machine M --as tools -o tools.csv   what each tool does: ERP, setup sheet
   ncc time --schema                                      JSON Schema of payload and ndjson
 
-What a machine does not state is taken for granted, and told. Nothing is printed of a program
-that cannot be executed; of several the others are told all the same, and those that are missing
+What a machine does not state is assumed, and reported. Nothing is printed of a program
+that cannot be executed; of several the others are reported all the same, and those that are missing
 are named. Exit codes are those of `ncc --help`; of several programs the highest.";
 
 /// `ncc time`.
@@ -63,7 +63,7 @@ pub struct Time {
     #[arg(long, conflicts_with = "files", help_heading = "How the result looks")]
     pub schema: bool,
 
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
 }
@@ -108,7 +108,7 @@ impl Form {
 /// Stages of the case study's document, as they are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum StageArg {
-    /// As the program says it
+    /// As the program states it
     Before,
     /// As the machine does it
     After,

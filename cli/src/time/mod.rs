@@ -1,8 +1,8 @@
 //! `ncc time`: when everything in a program happens, and how long it takes.
 //!
 //! `drive` goes from the text to functions with times; each form of output is a sink that takes them
-//! one by one (`csv`, `payload`, `canon`, `tally` for the summaries). What is written goes to an
-//! anonymous file first, as a translation does, and is released when the whole program could be
+//! one by one (`csv`, `payload`, `canon`, `tally` for the summaries). What is written goes to a temporary file
+//! first, as a translation does, and is released when the whole program could be
 //! executed. Not here: models (ncc-time), machines (ncc-machines), pictures.
 //!
 //! ```text
@@ -56,7 +56,7 @@ use ncc_driver::translate::translate;
 pub(crate) struct Shop {
     pub(crate) profile: Option<Profile>,
     machine: Machine,
-    /// What the model takes for granted of it.
+    /// What the model assumes of it.
     assumed: Vec<AssumedFact>,
 }
 
@@ -88,7 +88,7 @@ impl Shop {
 /// Runs the verb.
 ///
 /// # Errors
-/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on
+/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is reported on
 /// `err`.
 pub fn run(args: &Time, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
@@ -194,7 +194,7 @@ struct Lost {
 }
 
 impl Lost {
-    /// One of which its diagnostics have been told.
+    /// One of which its diagnostics have been reported.
     fn refused(&mut self, name: String) {
         self.names.push(name);
         self.exit = self.exit.and(Exit::Refused);
@@ -267,7 +267,7 @@ impl Write for Spool {
     }
 }
 
-/// A program as a translation into itself: so its diagnostics are told.
+/// A program as a translation into itself: so its diagnostics are reported.
 pub(crate) fn job(
     args: &Time,
     shop: &Shop,
@@ -319,7 +319,7 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
         skip: args.setting.switches.on(),
         start_time: args.setting.start_time,
         stage: args.stage.into(),
-        // Cycles that are told as they are called have no times.
+        // Cycles that are reported as they are called have no times.
         centre: Stage::from(args.stage) == Stage::After,
     }
 }
@@ -386,7 +386,7 @@ fn tell(
     err.flush()
 }
 
-/// What a program's timing takes for granted.
+/// What a program's timing assumes.
 pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
     let dialect = plan.job.from.dialect;
@@ -477,7 +477,7 @@ fn write_report(args: &Time, report: &Report, spool: &mut Spool) -> io::Result<(
     }
 }
 
-/// A program of which every function is told.
+/// A program of which every function is reported.
 fn stream(
     args: &Time,
     shop: &Shop,
@@ -593,7 +593,7 @@ fn canonical(
     let mut sink = canon::Canon::new(BufReader::new(again), out);
     let mut course = execute(args, &plan, &known, &mut text, &mut sink, err)?;
     sink.finish().map_err(cannot)?;
-    // What was taken for granted of the source; the canonical text states what it means.
+    // What was assumed of the source; the canonical text states what it means.
     course.diagnostics = outcome.diagnostics;
     Ok(Ok(course))
 }

@@ -134,7 +134,7 @@ fn in_doubt_nothing_is_written() {
 #[test]
 fn several_inputs_or_two_places_are_refused() {
     shells(&nothing, "ncc mach9 -> fanuc good.cn bad.cn", &|done, folder| {
-        done.exits(2).says("2 files and folders: where to?");
+        done.exits(2).says("2 files and folders: no output folder");
         assert_eq!(read(folder, "fanuc"), "");
     });
     shells(&nothing, "ncc mach9 -> fanuc good.cn -o part.nc", &|done, folder| {

@@ -234,7 +234,7 @@ fn certificates() {
     assert_eq!(read(&folder, "c.json"), certificate);
     let swapped = run(&["--cert", "c.json", "--recheck", "fanuc:b", "mach9:a"]).exits(1).out;
     assert!(swapped.contains("good.cn is another file"), "{swapped}");
-    run(&["--cert", "c.json", "--tolerance", "1"]).exits(2).says("--tolerance is said by the certificate");
+    run(&["--cert", "c.json", "--tolerance", "1"]).exits(2).says("--tolerance is in the certificate");
 
     // Somebody has been at it.
     for (from, to, says) in [

@@ -325,7 +325,7 @@ impl<'d> Drive<'d> {
             }
             _ => {}
         }
-        // Some are told by several steps.
+        // Some are reported by several steps.
         let known = self.diagnostics.iter().rev().take(16).any(|d| d.span == *span && d.fault == *fault);
         if known {
             return;

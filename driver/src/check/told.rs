@@ -30,7 +30,7 @@ pub struct Graded {
     pub allow: Vec<u16>,
     /// Those that are errors.
     pub deny: Vec<u16>,
-    /// Whether assumptions are told too.
+    /// Whether assumptions are reported too.
     pub verbose: bool,
 }
 

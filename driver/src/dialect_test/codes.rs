@@ -1,4 +1,4 @@
-//! G and M codes, the canned cycles and patterns that they call up, and their letters.
+//! G and M codes, the canned cycles and patterns that they activate, and their letters.
 
 use ncc_dialects::{CodeRow, DataKind, DataRow, Meaning, NameMeaning, Quantity, ValueName, ValueWord};
 use ncc_ir::canon::{AdviceKind, FeedMode, SpindleMode};

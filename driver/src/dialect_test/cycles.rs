@@ -1,4 +1,4 @@
-//! What cycles and patterns of a dictionary come to, each written as a program.
+//! Tests of the cycles and patterns of a dictionary, each as a program.
 
 use ncc_dialects::{CycleRow, Dialect, Family, Hand, PatternRow};
 use ncc_ir::canon::ReturnLevel;

@@ -24,7 +24,7 @@ pub struct Said {
     pub before: String,
     /// The statement, one block a line.
     pub say: String,
-    /// What has to come behind it.
+    /// Statements that must follow it.
     pub after: String,
     /// Subprograms.
     pub procedures: String,
@@ -68,7 +68,7 @@ pub struct Bench {
     end: String,
 }
 
-/// A beginning, as far as the dialect has words for it.
+/// A beginning, as far as the dialect supports it.
 const BEGIN: &[&str] = &[
     "USE_LENGTH_UNITS(mm)",
     "SELECT_PLANE(XY)",
@@ -116,7 +116,7 @@ impl Bench {
         spelled(&self.begin[..upto], &[]).iter().any(|line| line.contains(what))
     }
 
-    /// Tries a statement both ways.
+    /// Writes a statement and reads it back.
     pub fn both_ways(&self, said: &Said) -> Tried {
         self.reads(said, &said.say, |text| text)
     }
@@ -126,7 +126,7 @@ impl Bench {
         self.reads_as(said, meant, change, Some)
     }
 
-    /// The same, of a text of which the lines that are read are said in another way, or not at all.
+    /// The same, of a text of which the lines that are read are stated in another way, or not at all.
     pub fn reads_as(
         &self,
         said: &Said,

@@ -112,7 +112,7 @@ fn said(d: &Dialect, row: &Address) -> Vec<Said> {
         Role::RadiusEntry if d.caps.compensation.radii.entry => {
             one("START_CUTTER_RADIUS_COMPENSATION(right, 21) & said STRAIGHT_TRAVERSE(X 10mm)".to_owned())
         }
-        // Where nothing reads it, it has to be refused by name.
+        // Where nothing reads it, it has to be refused.
         Role::RadiusEntry if row.refuse.is_none() => one(format!("NO_EFFECT(\"{letter}\")")),
         Role::RadiusEntry | Role::Parameter => Vec::new(),
     }

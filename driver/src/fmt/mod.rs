@@ -1,6 +1,6 @@
 //! The layout of a program within its dialect, and nothing but the layout.
 //!
-//! [`text`] takes a program apart line by line and writes it anew ([`layout`]), and has each line judged ([`same`]);
+//! [`text`] takes a program apart line by line and writes it again ([`layout`]), and has each line judged ([`same`]);
 //! [`number`] gives blocks new numbers and whatever names them ([`references`]); [`events`] executes the text before and
 //! after; [`calls`] is for texts that are lists of calls. Not here: what words mean.
 //!

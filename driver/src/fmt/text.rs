@@ -118,7 +118,7 @@ impl Both<'_> {
         Both { settings, again: lines.clone(), lines, pieces, words }
     }
 
-    /// Writes the next line anew; gives what it is, and whether the result says the same.
+    /// Writes the next line again; gives what it is, and whether the result says the same.
     fn lay_out(&mut self, line: &[u8], written: &mut Vec<u8>) -> (LineIs, bool) {
         let alike = self.lines.stands_as(&self.again);
         if alike

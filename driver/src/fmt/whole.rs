@@ -1,4 +1,4 @@
-//! A whole program laid out, its blocks numbered anew where that is asked for, and executed before and after.
+//! A whole program laid out, its blocks numbered again where that is asked for, and executed before and after.
 //!
 //! Not here: what is said of it, and where it is written.
 
@@ -27,7 +27,7 @@ pub struct Whole {
     pub unread: (Vec<u32>, u32),
     /// What its execution showed; nothing where no line changes.
     pub compared: Option<Compared>,
-    /// What the execution takes for granted.
+    /// What the execution assumes.
     pub assumed: Vec<Diagnostic>,
 }
 

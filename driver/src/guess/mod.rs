@@ -116,7 +116,7 @@ pub struct Recognised {
 /// The dialect of a source, of those that are known.
 ///
 /// # Errors
-/// It cannot be told for certain, or the source cannot be read.
+/// The dialect is not certain, or the source cannot be read.
 pub fn recognise(source: &mut Source, dialects: &[&'static Dialect]) -> Result<Recognised, Problem> {
     let found = guess(&mut source.file, dialects.iter().copied());
     match found.map_err(|e| Problem::file("read", &source.shown, &e))? {
@@ -400,7 +400,7 @@ fn program_number(dialect: &Dialect, line: usize, word: &str, value: &str, evide
     }
 }
 
-/// The line without its comment, and nothing if it cannot be told.
+/// The line without its comment, and nothing if it cannot be separated.
 fn without_comment(
     dialect: &Dialect,
     number: usize,

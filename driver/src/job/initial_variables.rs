@@ -199,7 +199,7 @@ impl InitialVariables {
         self.0.get(&plain(name)).is_some_and(|values| values.vacant || nothing(&values.kind))
     }
 
-    /// The names of which something is said.
+    /// The names of which something is stated.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.keys().map(String::as_str)
     }

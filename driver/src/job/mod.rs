@@ -1,4 +1,4 @@
-//! What a translation is asked for and what it gives back: the face of the pipeline towards the
+//! The request and the result of a translation: the face of the pipeline towards the
 //! command line, and towards tests that call it without a process.
 //!
 //! ```text
@@ -6,7 +6,7 @@
 //! Outcome { output, diagnostics, … }    what came of it
 //! ```
 //!
-//! Not here: how it is done (`translate`), how it is told (`render`), where it goes (`release`).
+//! Not here: how it is done (`translate`), how it is reported (`render`), where it goes (`release`).
 
 pub mod initial_variables;
 pub mod options;
@@ -47,7 +47,7 @@ use crate::source::include_path;
 use crate::source::spool::Spool;
 pub use crate::stretches::SHORTEST as SHORTEST_STRETCH;
 
-/// The pass that writes the path of the tool's centre.
+/// The pass that writes the tool centre path.
 const EXPAND_COMPENSATION: &str = "expand-compensation";
 
 /// A translation to be done.
@@ -223,7 +223,7 @@ impl Job {
         source
     }
 
-    /// Side effects of codes on the target's control. A target without words for machine zero is assumed to move Z
+    /// Side effects of codes on the target's control. A target that lacks machine zero is assumed to move Z
     /// there at a tool change, as the source's control does. An open fact stays open.
     pub fn target_behaviours(&self) -> Behaviours {
         let mut target = self.to.behaviours();
@@ -240,7 +240,7 @@ impl Job {
         target
     }
 
-    /// Whether the source's control moves Z to machine zero at a tool change, and the target has no words for that: it
+    /// Whether the source's control moves Z to machine zero at a tool change, and the target lacks that: it
     /// is assumed to do the same, or, a list of events, leaves it out. Nothing is known there of the target's Z.
     pub fn takes_way_up(&self) -> bool {
         let caps = &self.to.dialect.caps;
@@ -264,12 +264,12 @@ impl Job {
         }
     }
 
-    /// Whether cutter radius compensation is worked out, so that the output has none.
+    /// Whether cutter radius compensation is computed, so that the output has none.
     pub fn works_compensation_out(&self) -> bool {
         self.passes.iter().any(|pass| pass.name == EXPAND_COMPENSATION)
     }
 
-    /// How it is worked out: as the source's control does it, by the tools of the source's machine.
+    /// How it is computed: as the source's control does it, by the tools of the source's machine.
     pub fn compensating(&self) -> Compensating {
         let known = self.from.dialect.can.contour_left_at_once;
         Compensating {
@@ -316,7 +316,7 @@ pub struct Outcome {
     pub questions: Vec<Question>,
     /// What a user types so that a refused program that computes goes through as straight blocks, if it does.
     pub straight: Option<Straight>,
-    /// What the verification covered; `None` if it was not asked for or did not come to its end.
+    /// What the verification covered; `None` if it was not asked for or did not reach its end.
     pub verified: Option<Verified>,
     /// Whether the output may be used, and if not, why.
     pub release: Result<(), Failure>,
@@ -399,7 +399,7 @@ impl Outcome {
         self.release.map_or_else(Failure::exit, |()| Exit::Done)
     }
 
-    /// The name of the output's file; that of a subprogram that stands alone, for a control that finds them by their
+    /// The name of the output's file; that of a standalone subprogram, for a control that finds them by their
     /// files, is the one by which its callers look for it.
     pub fn file_name(&self, machines: &Machines, to: &Dialect, source: &str) -> String {
         let called = self.output.called().and_then(|name| include_path::file_of(to, name));
@@ -485,7 +485,7 @@ pub enum Straight {
 /// An output: its head, which can be written only when all the rest is known, and the rest.
 #[derive(Debug)]
 pub struct Output {
-    /// What it is called by, where it is a subprogram that stands alone.
+    /// What it is called by, where it is a standalone subprogram.
     called: Option<Text>,
     head: Vec<u8>,
     body: Spool,
@@ -503,7 +503,7 @@ impl Output {
         self.called = Some(name);
     }
 
-    /// What it is called by, where it is a subprogram that stands alone.
+    /// What it is called by, where it is a standalone subprogram.
     pub fn called(&self) -> Option<&str> {
         self.called.as_deref()
     }
@@ -511,7 +511,7 @@ impl Output {
     /// Adds to the body.
     ///
     /// # Errors
-    /// The anonymous file cannot be made or written.
+    /// The temporary file cannot be made or written.
     pub fn push(&mut self, text: &[u8]) -> io::Result<()> {
         self.body.write_all(text)?;
         self.body_bytes += text.len() as u64;
@@ -536,7 +536,7 @@ impl Output {
     /// Writes the whole, head first. May be called again.
     ///
     /// # Errors
-    /// Reading the anonymous file, or writing to `into`.
+    /// Reading the temporary file, or writing to `into`.
     pub fn write_to(&mut self, into: &mut dyn Write) -> io::Result<()> {
         into.write_all(&self.head)?;
         self.body.seek(SeekFrom::Start(0))?;
@@ -552,7 +552,7 @@ impl Output {
     /// The whole, in memory.
     ///
     /// # Errors
-    /// Reading the anonymous file.
+    /// Reading the temporary file.
     pub fn to_vec(&mut self) -> io::Result<Vec<u8>> {
         let mut all = Vec::with_capacity(self.bytes() as usize);
         self.write_to(&mut all)?;

@@ -20,7 +20,7 @@ pub fn orientation(job: &Job) -> Option<Num> {
         .map(|angle| Num { unit: Unit::Degree, ..angle })
 }
 
-/// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.
+/// A parameter of the source's control, in mm, needed where a cycle that rests on it is expanded.
 pub fn parameter(job: &Job, option: &str) -> Option<Num> {
     job.from.length(option)
 }

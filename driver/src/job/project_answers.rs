@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::render::messages::message::{Message, Part};
 
-/// What is in force of a project file, for head, report and certificate.
+/// What is active of a project file, for head, report and certificate.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Used {

@@ -32,7 +32,7 @@ pub struct Side<'a> {
     pub options: &'a BTreeMap<String, String>,
 }
 
-/// The set-up of a program, as far as it is stated anew: `None` leaves a key as it is, an empty value takes it out.
+/// The set-up of a program, as far as it is stated again: `None` leaves a key as it is, an empty value takes it out.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SetUp<'a> {
     /// The raw part, as the command line has it.

@@ -1,6 +1,6 @@
 //! What the user states of the machine before the program begins: where its axes stand, and which tool is in the spindle.
 //!
-//! The tool is that of the T code in force (Fanuc `--value '#4120=2'`): a program that begins without a tool change cuts
+//! The tool is that of the T code active (Fanuc `--value '#4120=2'`): a program that begins without a tool change cuts
 //! with it.
 
 use ncc_backends::Writer;
@@ -60,7 +60,7 @@ impl Job {
         }
     }
 
-    /// What variables may be given when the program runs: not the T and H code in force at the start, which are read with
+    /// What variables may be given when the program runs: not the T and H code active at the start, which are read with
     /// the text.
     pub(crate) fn given_to_runs(&self) -> InitialVariables {
         if self.given.names().next().is_none() {
@@ -70,7 +70,7 @@ impl Job {
         with_text.into_iter().flatten().fold(self.given.clone(), |given, name| given.without(&name))
     }
 
-    /// The tool in the spindle before the program begins, as far as the user states the T code in force.
+    /// The tool in the spindle before the program begins, as far as the user states the T code active.
     pub fn tool_at_start(&self) -> Option<u32> {
         self.from.stated_of(&System::SelectedTool).and_then(|(_, tool)| u32::try_from(tool).ok())
     }

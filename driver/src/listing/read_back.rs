@@ -128,29 +128,29 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     Ok(events)
 }
 
-/// What the calls have said so far.
+/// What the calls have stated so far.
 #[derive(Default)]
 struct Listed {
     state: State,
     at: [Nanos; AXES],
     inch: bool,
     plane: Option<Plane>,
-    /// Feed in force, nanos of a millimetre a minute.
+    /// Feed active, nanos of a millimetre a minute.
     feed: Nanos,
     /// Whether feeds are those of a tap, which the spindle's speed goes with.
     tapping: bool,
-    /// How far a move in step with the spindle goes in a turn, while there is one.
+    /// How far a spindle-synchronised move goes in a turn, while there is one.
     pitch: Option<Nanos>,
     /// Whether the line before stopped the spindle for a tool change.
     stopped: bool,
-    /// Zero of the work offset in force, by how many degrees it is turned, and the shift within it.
+    /// Zero of the active work offset, by how many degrees it is turned, and the shift within it.
     offset: [Nanos; AXES],
     turn: Nanos,
     shift: [Nanos; AXES],
-    /// Offsets of the tool in force.
+    /// Offsets of the active tool.
     tool: [Nanos; 3],
-    /// Each with how far rounding moves it along the machine's axes, nanos of a millimetre, where that is more than half a
-    /// unit of the last digit: where an offset is turned, by half a unit along each of the turned axes, so by at most its
+    /// Each with how far rounding moves it along the machine's axes, nanos of a millimetre, where that is more than half the least increment:
+    /// where an offset is turned, by half a unit along each of the turned axes, so by at most its
     /// square root of two times along one of the machine's.
     events: Vec<(Event, Nanos)>,
 }
@@ -207,7 +207,7 @@ impl Listed {
             | "SET_FEED_REFERENCE"
             | "SET_NAIVECAM_TOLERANCE"
             | "SET_MOTION_CONTROL_MODE" => {}
-            // What stands in the table shows where it is called up.
+            // What stands in the table shows where it is activated.
             "SET_TOOL_TABLE_ENTRY" => {}
             "USE_TOOL_LENGTH_OFFSET" => {
                 let mut numbers = inside.split([',', ' ']).filter(|n| !n.is_empty());
@@ -318,7 +318,7 @@ impl Listed {
         }
     }
 
-    /// A speed of the spindle; that of a surface is said in ft/min where lengths are inches.
+    /// A speed of the spindle; that of a surface is stated in ft/min where lengths are inches.
     fn speed(&mut self, text: &str) -> Option<()> {
         let said = number(text)?;
         let feet = self.state.spindle_mode == SpindleMode::Surface && self.inch;
@@ -339,7 +339,7 @@ impl Listed {
         Some(())
     }
 
-    /// In and out again in step with the spindle, which turns the other way for the way out.
+    /// In and out again synchronised with the spindle, which turns the other way for the way out.
     fn rigid_tap(&mut self, words: &[&str]) -> Option<()> {
         let [x, y, z] = words else { return None };
         let pitch = self.pitch?;
@@ -405,7 +405,7 @@ impl Listed {
         (words.len() == AXES).then_some(point)
     }
 
-    /// How far the feed in force goes in a turn of the spindle.
+    /// How far the active feed goes in a turn of the spindle.
     fn of_a_turn(&self) -> Option<Nanos> {
         let turn = i128::from(self.feed) * i128::from(ONE) / i128::from(self.state.speed).max(1);
         Nanos::try_from(turn).ok()

@@ -19,7 +19,7 @@ pub fn list(profiles: &[Profile]) -> String {
     text
 }
 
-/// The line that opens what is told of a machine; a profile need have no title.
+/// The line that opens what is reported of a machine; a profile need have no title.
 pub fn headline(profile: &Profile) -> String {
     match profile.schema.title.as_str() {
         "" => format!("{}\n", profile.id()),

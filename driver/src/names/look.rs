@@ -217,7 +217,7 @@ impl<'d> Look<'d> {
         }
     }
 
-    /// Subprograms, loops and decisions of O words: each word says which by its number or name.
+    /// Subprograms, loops and branches of O words: each word says which by its number or name.
     fn o_word(&mut self, line: &[u8], pieces: &[Piece]) {
         let Some(at) = pieces.iter().position(|piece| piece.text(line).eq_ignore_ascii_case(b"o")) else {
             return self.programs(line, pieces);

@@ -31,7 +31,7 @@ pub enum Sort {
     Label,
     /// A program or subprogram.
     Program,
-    /// A loop or a decision.
+    /// A loop or a branch.
     Loop,
     /// A variable.
     Variable,

@@ -16,7 +16,7 @@ use crate::source::spool::Spool;
 /// Most characters of a comment.
 const LONGEST: usize = 100;
 
-/// Most lines of the source that are told for one line of the output.
+/// Most source lines named for one line of the output.
 const MOST_LINES: usize = 3;
 
 /// Fewest characters that are worth a comment.
@@ -39,7 +39,7 @@ pub fn can(dialect: &Dialect) -> bool {
 pub struct Annotator {
     dialect: &'static Dialect,
     source: Recall,
-    /// Lines of the source that were told last.
+    /// Lines of the source that were reported last.
     last_lines: Vec<(usize, usize)>,
     /// Whether the text handed over so far ends amid a line.
     open: bool,
@@ -53,7 +53,7 @@ impl Annotator {
     /// Further text of the source, from this place on.
     ///
     /// # Errors
-    /// The anonymous file cannot be written.
+    /// The temporary file cannot be written.
     pub fn source(&mut self, text: &[u8], base: u32) -> io::Result<()> {
         self.source.push(text, base)
     }
@@ -61,7 +61,7 @@ impl Annotator {
     /// A piece of emitted text, with comments.
     ///
     /// # Errors
-    /// The anonymous file cannot be read.
+    /// The temporary file cannot be read.
     pub fn apply(&mut self, text: &[u8], origins: &[Origin], writer: &mut Writer) -> io::Result<Vec<u8>> {
         let mut out = Vec::with_capacity(text.len() * 2);
         let mut lines =

@@ -22,7 +22,7 @@ pub struct RowOf {
     pub dialect: &'static str,
     /// What the word means.
     pub meaning: String,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: &'static str,
     /// Whether it is confirmed.
     pub sure: bool,
@@ -104,7 +104,7 @@ impl Met {
         }
     }
 
-    /// What a code calls up.
+    /// What a code activates.
     fn structures(&mut self, d: &'static Dialect, code: &str, found: &mut Vec<usize>) {
         if let Some(row) = d.cycle_row(code) {
             self.add(Table::Cycle, &row.code, found, || RowOf {

@@ -1,4 +1,4 @@
-//! Rows of the record, kept in an anonymous file: a few numbers for each line of the output.
+//! Rows of the record, kept in a temporary file: a few numbers for each line of the output.
 
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 
@@ -44,7 +44,7 @@ impl Written {
     /// Adds a row.
     ///
     /// # Errors
-    /// The anonymous file cannot be written.
+    /// The temporary file cannot be written.
     pub fn push(&mut self, row: &Row) -> io::Result<()> {
         let out = &mut self.row;
         out.clear();
@@ -68,7 +68,7 @@ impl Written {
     /// Reads them from the first one.
     ///
     /// # Errors
-    /// The anonymous file cannot be read.
+    /// The temporary file cannot be read.
     pub fn rows(self) -> io::Result<Rows> {
         let mut file = self.file.into_inner().map_err(io::IntoInnerError::into_error)?;
         file.seek(SeekFrom::Start(0))?;
@@ -86,7 +86,7 @@ impl Rows {
     /// The next row.
     ///
     /// # Errors
-    /// There is none, or the anonymous file cannot be read.
+    /// There is none, or the temporary file cannot be read.
     pub fn next(&mut self, row: &mut Row) -> io::Result<()> {
         let from = &mut self.file;
         for spans in [&mut row.spans, &mut row.also] {

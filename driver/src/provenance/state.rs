@@ -1,5 +1,5 @@
 //! The modal state of a control before and after one line of a program, found by executing the program up
-//! to there. A line that is executed several times is told as it is met first.
+//! to there. A line that is executed several times is reported as it is met first.
 //!
 //! What the program has not said is not told, whatever a control may have at power-on.
 
@@ -19,7 +19,7 @@ use crate::review::words::{coolant, number, spindle};
 use crate::source::chunks::{Chunk, Chunks};
 use crate::verify_run::controls::fixed;
 
-/// What is told, in this order.
+/// What is reported, in this order.
 pub const WHAT: [&str; 12] = [
     "units",
     "distance",

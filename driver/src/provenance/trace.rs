@@ -141,7 +141,7 @@ impl Trace {
     /// Further text of the body, and where its lines come from.
     ///
     /// # Errors
-    /// The body is longer than places in it can be told.
+    /// The body is longer than places in it can be stored.
     pub fn text(&mut self, text: &[u8], origins: Vec<Origin>) -> io::Result<()> {
         self.origins.extend(origins);
         for end in memchr::memchr_iter(b'\n', text) {
@@ -213,7 +213,7 @@ impl Trace {
     /// Closes the rows of lines that end before this place of the body: no further events come before it.
     ///
     /// # Errors
-    /// The anonymous file cannot be written.
+    /// The temporary file cannot be written.
     pub fn close_rows_before(&mut self, place: u64) -> io::Result<()> {
         // A line is over where the next one begins.
         while self.waiting.get(1).map_or(self.open, |next| next.start) <= place {
@@ -234,7 +234,7 @@ impl Trace {
     /// All rows, once the body is whole.
     ///
     /// # Errors
-    /// The anonymous file cannot be written.
+    /// The temporary file cannot be written.
     pub fn finish(mut self) -> io::Result<Recorded> {
         if self.open < self.bytes {
             // A last line without its end.

@@ -138,7 +138,7 @@ pub fn note(
     let found = find(job, &mut source.file, diagnostics, sound);
     let found = found.map_err(|e| Problem::file("read", &source.shown, &e))?;
     if !found.is_empty() {
-        // What cannot be told changes nothing about what is done.
+        // What cannot be reported changes nothing about what is done.
         let _ = writeln!(err, "{}: {}", source.shown, words::note(&found));
     }
     Ok(())

@@ -31,7 +31,7 @@ pub struct About<'a> {
     pub source: &'a mut dyn Readable,
 }
 
-/// How much is said.
+/// How much is stated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loudness {
     /// What stops the translation.

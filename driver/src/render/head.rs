@@ -87,7 +87,7 @@ pub fn by_name(renumbered: &BTreeSet<(Numbered, Text, Text)>, arrow: &str) -> Ve
 }
 
 /// An assumption in the few words that fit a program's head; `None` for what is none. A work offset
-/// is named by the first of the dialects that has a word for it.
+/// is named by the first of the dialects that supports it.
 pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
     let controls = |form| {
         let [to, from] = dialects.map(|dialect| dialect.id.as_str());

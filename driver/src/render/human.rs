@@ -119,7 +119,7 @@ pub fn choose<'d>(
     (all, left_out)
 }
 
-/// Prints the diagnostics that are told at this loudness.
+/// Prints the diagnostics that are reported at this loudness.
 ///
 /// # Errors
 /// Reading the source, or writing.
@@ -217,7 +217,7 @@ fn also(group: &Group, lines: &Lines) -> Option<String> {
 }
 
 /// Whether two faults at one place are one to the reader: several steps may find the same, and a
-/// pass and a back-end may both have no words for a place.
+/// pass and a back-end may both lack a place.
 fn same(a: &Fault, b: &Fault) -> bool {
     a == b || matches!((a, b), (Fault::TargetLacks { .. }, Fault::TargetLacks { .. }))
 }

@@ -111,7 +111,7 @@ struct LeftOut {
     count: usize,
 }
 
-/// Prints the diagnostics that are told at this loudness.
+/// Prints the diagnostics that are reported at this loudness.
 ///
 /// # Errors
 /// Reading the source, or writing.
@@ -132,7 +132,7 @@ pub fn print(
     Ok(())
 }
 
-/// The diagnostics that are told at this loudness.
+/// The diagnostics that are reported at this loudness.
 ///
 /// # Errors
 /// Reading the source.

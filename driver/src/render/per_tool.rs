@@ -13,7 +13,7 @@ pub(crate) enum Begins {
     ZeroSet,
     /// With the tool of the file, and the zero of Z as it was.
     ZeroKept,
-    /// With the tool that is in the spindle.
+    /// With the tool in the spindle.
     InSpindle,
 }
 

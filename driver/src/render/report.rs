@@ -138,7 +138,7 @@ struct Renumbered<'a> {
     to: &'a str,
 }
 
-/// What the translation took for granted; each once, however often it was relied on.
+/// What the translation assumed; each once, however often it was relied on.
 #[derive(Serialize)]
 struct Assumption {
     code: String,

@@ -287,7 +287,7 @@ fn summary(form: &'static str) -> Message {
 fn line_list(group: &Group, lines: &Lines, called: Option<&Called>) -> String {
     let file = |place: u32| called.and_then(|called| called.file(place));
     if let Some(first) = group.places.iter().find_map(|place| file(*place)) {
-        // Lines of several files are told of the first one alone.
+        // Lines of several files are reported of the first one alone.
         let in_it = |place: &&u32| file(**place).is_some_and(|other| other.name == first.name);
         let mut numbers: Vec<u64> =
             group.places.iter().filter(in_it).filter_map(|p| Some(lines.line(*p)?.number)).collect();

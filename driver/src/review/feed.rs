@@ -121,7 +121,7 @@ impl Takes for Feed<'_> {
     }
 }
 
-/// Whether a statement measures from where the tool stands.
+/// Whether a statement measures from where the tool is.
 fn incremental(stmt: &Stmt) -> bool {
     let measured =
         |to: &Point| to.axes.iter().flatten().any(|word| word.distance == Fact::Known(Distance::Incremental));

@@ -2,7 +2,7 @@
 //! handed out with what it makes in every world.
 //!
 //! [`stream`] is what `verify` and `diff` have in common with the timing of programs: pieces of the
-//! source, the reader, facts that the dialect takes for granted, controls that execute. A program
+//! source, the reader, facts that the dialect assumes, controls that execute. A program
 //! streams in constant memory until its first call, label or loop; its rest is kept whole and run from
 //! there. What is done with the events is the caller's matter; nothing is compared or told here.
 //!
@@ -56,7 +56,7 @@ const ENOUGH_ERRORS: usize = 200;
 /// What becomes of facts that a program relies on and never says.
 #[derive(Clone, Copy, Debug)]
 pub enum Unsaid {
-    /// Its dialect's power-on rows are taken for granted, and told: a user's source.
+    /// Its dialect's power-on rows are assumed and reported: a user's source.
     Taken,
     /// Only these facts hold; the worlds disagree about every other: a text that has to say it all.
     Only(Modes),
@@ -73,7 +73,7 @@ pub struct Course {
     pub skip_levels: u16,
     /// Blocks that say something.
     pub blocks: u64,
-    /// Facts that the program relies on and never says, where they are taken for granted.
+    /// Facts that the program relies on and never says, where they are assumed.
     pub assumed: Modes,
     /// What its text has of what a comparison must know of the whole.
     pub has: Has,
@@ -83,7 +83,7 @@ pub struct Course {
     pub bytes: Option<(u64, [u8; 32])>,
 }
 
-/// What is taken for granted where a program asks for a value of the machine's own.
+/// What is assumed where a program asks for a value of the machine's own.
 pub fn as_stated(asked: &System, at: Span) -> Diagnostic {
     let assumption = ControlFact::MachineValue { asked: asked.to_string().into() };
     Diagnostic::new(Fault::AssumedFact { fact: assumption }, at)
@@ -100,7 +100,7 @@ pub struct Has {
     pub inches: bool,
     /// The first work offset that it names.
     pub work_offset: Option<u16>,
-    /// A word that cancels a shift of the origin.
+    /// A word that cancels a G92 shift.
     pub clears_shift: bool,
     /// Cycles that clear chips with a parameter of the control: pecks, breaks of chips.
     pub chips: bool,
@@ -147,7 +147,7 @@ pub fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
 /// Executes a program from its beginning in all the controls at once. `take` gets the start, every
 /// statement that makes something, and at last the end of the text; it may break off.
 ///
-/// The controls should be fresh. What the program relies on and never says is taken for granted of
+/// The controls should be fresh. What the program relies on and never says is assumed of
 /// each, as its dialect has it, and is among the diagnostics.
 ///
 /// # Errors
@@ -395,7 +395,7 @@ impl<'r> Run<'r> {
         Ok(())
     }
 
-    /// Each control executes what the program comes to with its own answers. Where they go different ways there is no
+    /// Each control executes the blocks that the program reaches with its own answers. Where they go different ways there is no
     /// statement that all have made, and the program is refused.
     fn each_its_way(&mut self, mut runners: Vec<Runner>) -> Result<(), Diagnostic> {
         while !self.broken_off {
@@ -432,7 +432,7 @@ impl<'r> Run<'r> {
     fn assume(&mut self) {
         let stood = std::mem::replace(&mut self.stood, true);
         for control in &mut self.controls {
-            // What the text itself takes for granted goes before what holds for it.
+            // What the text itself assumes goes before what holds for it.
             control.exec.assume(&self.batch.assumed);
             if let Unsaid::Only(facts) = &self.unsaid {
                 control.exec.assume(facts);

@@ -30,7 +30,7 @@ pub fn decimal(n: Num) -> String {
     if part.is_empty() { format!("{sign}{whole}") } else { format!("{sign}{whole}.{part}") }
 }
 
-/// A place: X Y Z, and turning axes that are not at zero.
+/// A place: X Y Z, and rotary axes that are not at zero.
 pub fn place(at: &[Nanos; AXES]) -> String {
     let axes = Axis::ALL.into_iter().filter(|axis| !axis.is_rotary() || at[*axis as usize] != 0);
     let words: Vec<String> =
@@ -61,7 +61,7 @@ pub fn coolant(on: Coolant) -> String {
     }
 }
 
-/// Whose length is in force.
+/// Whose length is active.
 pub fn length(length: &Length) -> String {
     match length {
         Length::Entry(0) => "none".to_owned(),

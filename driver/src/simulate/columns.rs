@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `t0`, `t1` | begin and end, seconds |
 //! | `x0` … `z1` | start and end, mm, coordinates of the part |
-//! | `feed`, `speed` | mm/min, 0 in rapids; rev/min, 0 while the spindle stands |
+//! | `feed`, `speed` | mm/min, 0 in rapids; rev/min, 0 while the spindle is stopped |
 //! | `line` | line of the source, from 1; 0 if not known |
 //! | `move` | number of the move, from 1 |
 //! | `tool` | place of the tool in the document of `ncc simulate` |

@@ -28,7 +28,7 @@ pub struct About<'a> {
     pub source: &'a str,
     /// Its dialect.
     pub dialect: &'a str,
-    /// What its execution takes for granted, a line each.
+    /// What its execution assumes, a line each.
     pub assumed: &'a [String],
     /// What lies around the part.
     pub around: &'a Surroundings,

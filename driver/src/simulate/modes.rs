@@ -7,7 +7,7 @@
 //! | columns | what they are |
 //! |---|---|
 //! | `change_mode`, `change_text`, `change_move` | a mode, its words, and the first move that it is active in, from 1 |
-//! | `line`, `line_changes` | a line, and how many changes hold behind it and what follows, up to the next row, plus one; 0 where nothing is executed. A line that is passed several times has its first pass |
+//! | `line`, `line_changes` | a line, and how many changes hold after it and what follows, up to the next row, plus one; 0 where nothing is executed. A line that is passed several times has its first pass |
 //! | `shift_move`, `shift_known` | from this move on; bits of X, Y, Z where it is stated what leads to the machine |
 //! | `shift_x` … `shift_z`, `offset_x` … `offset_z` | added to a place of the part: one of the machine; one of the active work offset |
 //! | `turn_move`, `turn_a` … `turn_c` | where rotary axes stand behind a move; none where none moves |
@@ -79,7 +79,7 @@ pub struct Watched<'t> {
     changes: Vec<(u8, u32, u64)>,
     /// The first move of each change, as far as there are moves.
     moves: Vec<u32>,
-    /// Of each line, how many changes hold behind it, plus one.
+    /// Of each line, how many changes hold after it, plus one.
     lines: Vec<u32>,
     /// The line whose block is passed for the first time.
     passed: usize,
@@ -121,7 +121,7 @@ impl<'t> Watched<'t> {
         place
     }
 
-    /// Takes what leads to the machine in a move, and where rotary axes stand behind it.
+    /// Takes what leads to the machine in a move, and where rotary axes stand after it.
     fn moved(&mut self, timed: &Timed, said: &Said) {
         let own = u32::try_from(self.recorder.moves()).unwrap_or(u32::MAX);
         while self.changes.get(self.moves.len()).is_some_and(|(.., executed)| *executed <= said.executed) {

@@ -283,7 +283,7 @@ fn shape(own: &Shape) -> String {
     .headline()
 }
 
-/// What a simulation takes for granted besides what the times do: a line each.
+/// What a simulation assumes besides what the times do: a line each.
 pub fn assumptions(path: &Path, tables: &Tables, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
     if !course.as_programmed.is_empty() {

@@ -44,7 +44,7 @@ pub trait Library {
     fn read(&self, path: &Path, most: u64) -> io::Result<Vec<u8>>;
 }
 
-/// Puts the programs that a source calls behind it, as far as they are found in the folders.
+/// Appends the programs that a source calls, as far as they are found in the folders.
 ///
 /// # Errors
 /// A file cannot be read, or holds another program than the one that its name says.
@@ -147,7 +147,7 @@ struct Folder<'l> {
     named: HashMap<String, PathBuf>,
     /// All of them, in the order of their names.
     files: Vec<PathBuf>,
-    /// By the numbers of their programs, found out when one is first asked for that no file is named after.
+    /// By the numbers of their programs, found out when one is first asked for for which no file is named.
     numbered: OnceCell<HashMap<String, Vec<PathBuf>>>,
 }
 
@@ -422,7 +422,7 @@ fn sub_of(text: &[u8], name: &str, dialect: &Dialect) -> Option<Own> {
     None
 }
 
-/// The label of an O word and the word behind it, in small letters and without blanks.
+/// The label of an O word and the word after it, in small letters and without blanks.
 fn o_word(line: &[u8], letter: char) -> Option<(String, String)> {
     let line: String = std::str::from_utf8(line).ok()?.chars().filter(|c| !c.is_whitespace()).collect();
     let line = line.to_ascii_lowercase();

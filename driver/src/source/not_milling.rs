@@ -64,7 +64,7 @@ fn look(source: &mut Source) -> io::Result<Option<Finding>> {
     // One byte more tells whether the text goes on.
     (&mut source.file).take(BEGINNING as u64 + 1).read_to_end(&mut text)?;
     source.file.seek(SeekFrom::Start(0))?;
-    // What is no text at all is told by its readers.
+    // What is no text at all is reported by its readers.
     Ok(recognise(&text).filter(|_| !text.contains(&0)))
 }
 

@@ -51,7 +51,7 @@ struct OpenStretch {
 
 /// What comes of looking at the statements that are there.
 enum Found {
-    /// Nothing can be said before more are read.
+    /// Nothing can be stated before more are read.
     Wait,
     /// Look further.
     Further,
@@ -192,7 +192,7 @@ impl Packer {
                     self.needs_more = true;
                     return Found::Wait;
                 }
-                // The next one begins behind what is said seldom.
+                // The next one begins behind what is stated seldom.
                 self.from = tail + 1;
                 return Found::Further;
             }
@@ -200,7 +200,7 @@ impl Packer {
                 let goes_on = goes_on && end == first_end;
                 return self.open(body, [probed, start, tail], known, goes_on);
             }
-            // What is said seldom begins the next stretch.
+            // What is stated seldom begins the next stretch.
             end = tail;
         }
     }

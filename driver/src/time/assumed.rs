@@ -1,4 +1,4 @@
-//! What a timing takes for granted, in the few words of a summary.
+//! What a timing assumes, in the few words of a summary.
 
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
@@ -14,7 +14,7 @@ use crate::render::messages::message::{Message, Part};
 use crate::render::messages::words::{Context, unreachable, words};
 use crate::render::spelled;
 
-/// Of the program and its control: what the front-end took for granted.
+/// Of the program and its control: what the front-end assumed.
 pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
     let dialects = [job.from.dialect, job.to.dialect];
     let assumed = diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Verdict(Verdict::Assumed));

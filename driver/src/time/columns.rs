@@ -111,7 +111,7 @@ impl Columns {
         Some(Row { n: self.n, name, feed, speed, tool, distance: way.length })
     }
 
-    /// The row of a statement that is told as it is called.
+    /// The row of a statement that is reported at its call.
     pub fn called(&mut self, name: &'static str, feed: f64) -> Row {
         self.n += 1;
         let (speed, tool) = (units(self.speed), self.before.tool.max(0));

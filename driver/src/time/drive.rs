@@ -50,7 +50,7 @@ pub enum Stage {
     After,
 }
 
-/// Who is told how far a long program has come.
+/// Receives the progress of a long program.
 pub trait Watch {
     /// So many bytes are read; the clock of the machine stands there, in seconds.
     fn at(&mut self, bytes: u64, now: f64);
@@ -85,9 +85,9 @@ pub struct Plan<'p> {
     pub skip: u16,
     /// Seconds on the clock before the first block.
     pub start_time: f64,
-    /// Whether cycles are told as they are called, or as they are made.
+    /// Whether cycles are reported as they are called, or as they are made.
     pub stage: Stage,
-    /// Whether compensated contours are gone along by the tool's centre, where its radius is known.
+    /// Whether compensated contours are gone along by the tool centre, where its radius is known.
     pub centre: bool,
 }
 
@@ -164,7 +164,7 @@ pub trait Sink {
     /// The modes behind the statement of a line, if it wants them; its functions come later.
     fn active(&mut self, _line: u32, _followed: &Followed) {}
 
-    /// A statement of a cycle that is told as it is called; the control stands before the holes.
+    /// A statement of a cycle that is reported as it is called; the control stands before the holes.
     ///
     /// # Errors
     /// Writing.
@@ -194,7 +194,7 @@ pub struct Course {
     pub stops: bool,
     /// Whether it turns the tool onto tilted planes.
     pub turns_onto_planes: bool,
-    /// Whether it has points of the tool's tip.
+    /// Whether it has points of the tool tip.
     pub tip: bool,
     /// Active work offsets while it moves.
     pub offsets: BTreeSet<u16>,
@@ -210,9 +210,9 @@ pub struct Course {
     pub bounds: Option<[f64; 2]>,
     /// Whether contours are compensated.
     pub compensates: bool,
-    /// Whether a move was one of the tool's centre beside a contour.
+    /// Whether a move was one of the tool centre beside a contour.
     pub follows_centre: bool,
-    /// Contours that the tool's centre was not followed along: in which line that was found, and why.
+    /// Contours that the tool centre was not followed along: in which line that was found, and why.
     pub as_programmed: Vec<(u32, Fault)>,
     /// Blocks of the source that say something.
     pub blocks: u64,
@@ -514,7 +514,7 @@ impl<'d> Drive<'d> {
             let (place, mut said) =
                 held.map_or((place, said.clone()), |(_, place, said)| (*place, said.clone()));
             if last != Some(n) {
-                // By way of a point of the part.
+                // Through a point of the part.
                 said.tip.of_machine = [false; 3];
             }
             self.event(event, place, said);

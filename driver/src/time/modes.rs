@@ -13,7 +13,7 @@ use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{CutterRadius, Op, Stmt};
 use ncc_ir::track::Tracker;
 
-/// Whose length is in force.
+/// Whose length is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Length {
     /// An entry of the length table, which is edge 1 of the tool with its number too; 0 is none.

@@ -83,10 +83,10 @@ pub struct Payload<'m, W: Write> {
     machine: &'m Machine,
     columns: Columns,
     shape: Shape,
-    /// Times are told after processing.
+    /// Times are reported after processing.
     stage: Stage,
     any: bool,
-    /// Feed in force.
+    /// Feed active.
     feed: f64,
     out: W,
 }

@@ -1,4 +1,4 @@
-//! The summary: how long, by tool and by operation, with the model and what it takes for granted.
+//! The summary: how long, by tool and by operation, with the model and what it assumes.
 //!
 //! One report, in three forms: tables for people, Markdown, JSON; and the tools alone as CSV.
 
@@ -49,7 +49,7 @@ pub struct Timing {
     pub clock: [f64; 2],
     /// Seconds that it takes at least and at most, where the model gives bounds.
     pub bounds: Option<[f64; 2]>,
-    /// What is taken for granted.
+    /// What is assumed.
     pub assumed: Vec<String>,
     /// All of it.
     pub total: Tally,

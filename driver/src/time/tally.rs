@@ -16,7 +16,7 @@ use super::columns::units;
 use super::drive::{Said, Sink};
 use super::reach::Reach;
 
-/// So many operations are told of one by one; the time of further ones goes to the last.
+/// Most operations with a row of their own; the time of further ones goes to the last.
 const MOST_OPERATIONS: usize = 1000;
 
 /// Longest name of an operation, in characters.
@@ -62,7 +62,7 @@ pub struct Tally {
 pub struct Tool {
     /// Its number; `None` is the one in the spindle at the start.
     pub tool: Option<i64>,
-    /// How often it is put in.
+    /// How many times it is put in.
     pub changes: u64,
     /// Entries of the length table that its cuts use.
     pub cut_offsets: Vec<u32>,

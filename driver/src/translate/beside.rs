@@ -7,7 +7,7 @@
 //!
 //! The outcome is that of one thread: both do the same steps in the same order. Where the verification stops, the first
 //! thread is ahead of it, and may have found what it would not have looked for. So the whole attempt is thrown away, and
-//! the program is translated anew on one thread, which reports the stop (`translate::run`). A host without threads, such
+//! the program is translated again on one thread, which reports the stop (`translate::run`). A host without threads, such
 //! as a page in a browser, starts none, and verifies on the first.
 //!
 //! Not here: what a step of the verification does (`verify_run`).
@@ -92,7 +92,7 @@ impl Beside {
         }
     }
 
-    /// Has a step done behind those before it; `false` if it is known that the verification has stopped.
+    /// Has a step done after those before it; `false` if it is known that the verification has stopped.
     pub(super) fn go_on(&mut self, step: Step) -> bool {
         self.much += match &step {
             Step::Text { said: Saying::Table(_), .. } => TABLE,

@@ -1,7 +1,7 @@
 //! Judging a given text against a source: does it make the same cut?
 //!
 //! For tests that change an emitted program and want to see the change caught. The text may rely on
-//! what the translation itself takes for granted, and on nothing else.
+//! what the translation itself assumes, and on nothing else.
 
 use std::io;
 

@@ -14,7 +14,7 @@
 //! `outcome`       what comes of it at the end
 //! ```
 //!
-//! Not here: how a difference or a refusal is told (`render`).
+//! Not here: how a difference or a refusal is reported (`render`).
 
 mod beside;
 pub mod heading;
@@ -52,7 +52,7 @@ const ENOUGH_ERRORS: usize = 200;
 /// Translates a program.
 ///
 /// # Errors
-/// Reading the source or writing the anonymous file of the output failed. What is wrong with the
+/// Reading the source or writing the temporary file of the output failed. What is wrong with the
 /// program itself is in the outcome.
 pub fn translate(job: &Job, source: &mut dyn Readable) -> io::Result<Outcome> {
     Ok(translate_keeping(job, source)?.0)
@@ -101,7 +101,7 @@ struct Ways {
     tables: bool,
 }
 
-/// Translates a program; `None` if a faster way has come to something that it cannot report, so that it is to be done
+/// Translates a program; `None` if a faster way met something that it cannot report, so that it is to be done
 /// without any.
 fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, ways: Ways) -> io::Result<Option<Run>> {
     // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.

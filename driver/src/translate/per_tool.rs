@@ -46,7 +46,7 @@ impl Translation<'_> {
     /// Cuts the verified text at its tool changes, and verifies each file alone.
     ///
     /// # Errors
-    /// Reading the source or the anonymous file of the output.
+    /// Reading the source or the temporary file of the output.
     pub(super) fn cut_by_tool(&mut self, source: &mut dyn Readable) -> io::Result<()> {
         let Some(mut own) = self.per_tool.take().filter(|_| self.errors == 0 && !self.failed) else {
             return Ok(());

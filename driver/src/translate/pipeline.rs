@@ -48,7 +48,7 @@ enum Part {
 /// Some blocks on their way.
 struct Piece {
     stmts: Vec<Stmt>,
-    /// Whether the source ends behind them.
+    /// Whether the source ends after them.
     over: bool,
     /// The blocks as they were read, where a pass changes them.
     original: Option<Vec<Stmt>>,
@@ -107,7 +107,7 @@ struct Computed {
     entry_modes: HashMap<u32, Modes>,
 }
 
-/// A step has refused the program; why is told already.
+/// A step has refused the program; why is reported already.
 struct Refused;
 
 impl Translation<'_> {
@@ -212,7 +212,7 @@ impl Translation<'_> {
     }
 
     /// Whether the steps have left stretches as they are, and told nothing of a move that stands for one: since `before`,
-    /// and behind so many of the part's own diagnostics. Says what stretches compute as it is said beside them.
+    /// and after so many of the part's own diagnostics. Says what stretches compute as it is stated beside them.
     fn leaves(&self, stretches: &[Stretch], part: &mut Part, (before, found): (&Snapshot, usize)) -> bool {
         let Part::Kept(kept) = part else { return false };
         let told = self.diagnostics.iter().skip(before.diagnostics()).chain(kept.found.iter().skip(found));
@@ -324,8 +324,8 @@ impl Translation<'_> {
         Ok(())
     }
 
-    /// Writes what codes of the source's control do besides their names. In a kept program also what counts from the
-    /// frame in force, and what the target has no device for.
+    /// Writes what codes of the source's control do besides their names. In a kept program also what counts from the active frame,
+    /// and what the target has no device for.
     fn write_side_effects(&mut self, part: &mut Part) {
         match part {
             Part::Piece(Piece { stmts, lines, found, .. }) => {
@@ -440,8 +440,8 @@ impl Translation<'_> {
         }
     }
 
-    /// Brings the part within what the target can say. The source of a piece is executed here, as what the passes take
-    /// for granted holds for it as well.
+    /// Brings the part within what the target can say. The source of a piece is executed here, as what the passes assume
+    /// holds for it as well.
     fn legalise(&mut self, part: &mut Part) -> Result<(), Refused> {
         match part {
             Part::Piece(Piece { stmts, original, touch, executed, lines, target_modes, found, .. }) => {
@@ -534,7 +534,7 @@ impl Translation<'_> {
         }
     }
 
-    /// Whether what comes behind reading takes everything that is computed: a target that can say everything, as
+    /// Whether what comes after reading takes everything that is computed: a target that can say everything, as
     /// it is; or the pass that executes it.
     pub(super) fn executes_computed(&self) -> bool {
         match self.job.passes.first() {

@@ -94,7 +94,7 @@ fn unit(custom: Custom, line: &[u8]) -> Option<String> {
     }
 }
 
-/// The text that the parts came from, made anew of their names and what is in their files.
+/// The text that the parts came from, made again of their names and what is in their files.
 pub fn join(to: &Dialect, parts: &[Part]) -> Vec<u8> {
     let mut whole = Vec::new();
     let frame = to.program.frame.as_bytes();

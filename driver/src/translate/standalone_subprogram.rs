@@ -1,5 +1,5 @@
-//! A subprogram that stands alone: it goes back to a program that is not there. What it takes for granted is what that
-//! one has in force, so that the output states none of it, and is read with the same.
+//! A standalone subprogram: it returns to a program that is not there. What it assumes is what that
+//! one has active, so that the output states none of it, and is read with the same.
 
 use ncc_dialects::Dialect;
 use ncc_ir::canon::Units;
@@ -61,7 +61,7 @@ impl Translation<'_> {
             && self.job.from.dialect.program.macro_b
             && moves(main);
         if moves_end_cycles && !begins_by_a_move(main) {
-            // A way without a move would leave it in force.
+            // A way without a move would leave it active.
             let fault = Fault::AssumedFact { fact: ControlFact::NoCycleOfCaller };
             self.take(vec![Diagnostic::new(fault, at)], Told::Writer);
         }
@@ -91,7 +91,7 @@ impl Translation<'_> {
     }
 
     /// A macro's arguments, which are variables of its calls by their letters, become parameters for a target that has
-    /// them by name, and knows none without a value: each call must give them, which is told.
+    /// them by name, and knows none without a value: each call must give them, which is reported.
     pub(crate) fn with_parameters(&mut self, mut source: Program) -> Program {
         self.by_letters(&mut source);
         let from = self.job.from.dialect.program.macro_b;
@@ -149,7 +149,7 @@ impl Translation<'_> {
     }
 
     /// Arguments by letters have no value where a call leaves them out, where those of the source are zero: each call must
-    /// give them, which is told; a number that no letter gives is refused.
+    /// give them, which is reported; a number that no letter gives is refused.
     fn by_letters(&mut self, source: &mut Program) {
         let vacant = |caps: Caps| caps.flow.computes.is_some_and(|own| own.vacant);
         let alone = returns_alone(source).is_some();
@@ -198,7 +198,7 @@ impl Translation<'_> {
     }
 }
 
-/// Whether a variable is said as the spindle's speed.
+/// Whether a variable is stated as the spindle's speed.
 fn is_speed(body: &[Stmt], var: &Var) -> bool {
     body.iter().any(|stmt| match &stmt.op {
         Op::SetSpindleSpeed(Expr::Node(speed)) => matches!(&**speed, Node::Var(own) if own == var),
@@ -211,7 +211,7 @@ fn has_parameters(source: &Program) -> bool {
     source.procedures.first().is_some_and(|main| !main.parameters.is_empty())
 }
 
-/// Ends a program where it goes back.
+/// Ends a program where it returns.
 fn end(body: &mut [Stmt]) {
     for stmt in body {
         match &mut stmt.op {

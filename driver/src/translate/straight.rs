@@ -1,7 +1,7 @@
 //! The way out of a program that computes and is refused: whether it goes through as straight blocks, with
 //! `--pass flatten`.
 //!
-//! `WHILE [#1 LE 3] DO1`, `X#2`, … is refused where the target has no word for what X#2 may be. Executed, it is X10., X20.
+//! `WHILE [#1 LE 3] DO1`, `X#2`, … is refused where the target lacks what X#2 may be. Executed, it is X10., X20.
 //! and X30. The answer is found by doing it, so that the message names only what works.
 
 use std::io;
@@ -22,8 +22,8 @@ use crate::source::Readable;
 /// more straight blocks than that.
 const MOST: u32 = 100_000;
 
-/// Whether a message about straight blocks is missing: the program computes, and is refused for what the target has no
-/// words for alone.
+/// Whether a message about straight blocks is missing: the program computes, and is refused for what the target lacks
+/// alone.
 pub(super) fn is_open(translation: &Translation) -> bool {
     let mut errors =
         translation.diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Error).peekable();

@@ -6,7 +6,7 @@
 //!
 //! Most of a long program goes this way. What cannot is made statements of, and goes the usual one (`pipeline`). The
 //! passes have followed the statements that stand for a table before they are known to leave it alone; should one of them
-//! change or report any, the attempt is thrown away, and the program is translated anew without tables.
+//! change or report any, the attempt is thrown away, and the program is translated again without tables.
 
 use std::io;
 

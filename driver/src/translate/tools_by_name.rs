@@ -206,7 +206,7 @@ fn number_edges(job: &mut Job, tools: &Tools, mut taken: BTreeSet<u32>) {
     }
 }
 
-/// Whether a text may call up another edge than the first.
+/// Whether a text may activate another edge than the first.
 fn names_edge(text: &[u8]) -> bool {
     let edge = |behind: &[u8]| matches!(behind, [b'2'..=b'9', ..] | [b'=', b'2'..=b'9', ..]);
     memchr::memchr2_iter(b'D', b'd', text).any(|at| edge(&text[at + 1..]))

@@ -185,7 +185,7 @@ impl<'j> Translation<'j> {
         self.check(|v| v.head(&text));
     }
 
-    /// Lets the verification know what the passes took for granted, and what they folded.
+    /// Lets the verification know what the passes assumed, and what they folded.
     pub(super) fn take_parameters(&mut self, found: &[Diagnostic]) {
         if !Verifier::takes(found) {
             return;
@@ -197,7 +197,7 @@ impl<'j> Translation<'j> {
     }
 
     /// Assumed facts that the output does not state itself, in the target machine's numbers, and what
-    /// was taken for granted of the target.
+    /// was assumed of the target.
     pub(super) fn inherited(&self, assumed: &Modes) -> Modes {
         let target_modes = self.renumbering.modes(assumed);
         let facts = target_modes.without(&self.writer.stated()).without(&self.given);

@@ -123,7 +123,7 @@ impl Translation<'_> {
     pub(super) fn release_text(&mut self, assumed: &Modes, said: Said) -> io::Result<()> {
         let text = self.finished_text()?;
         let inherited = self.inherited(assumed);
-        // Places in the output are told by a map alone, which refuses a base that does not fit.
+        // Places in the output are reported by a map alone, which refuses a base that does not fit.
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         self.output.push(&text)?;
         self.written += text.len() as u64;

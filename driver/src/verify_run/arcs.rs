@@ -7,7 +7,7 @@
 //! The source is executed before its text is written, and for its effect on the state alone. When the text is read, and
 //! says the same arcs and lines, the target's control follows: `ncc_exec` says why that proves what two executions would
 //! (`moves::arcs::same`). Anything else has the source executed once more, from where it stood, and compared event by
-//! event. No open fact of a control concerns such arcs: a time of the block, a contour and turning axes are left to
+//! event. No open fact of a control concerns such arcs: a time of the block, a contour and rotary axes are left to
 //! execution.
 //!
 //! Not here: plain moves alone ([`Verifier::piece`]), and programs that are kept whole.

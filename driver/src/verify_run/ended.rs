@@ -19,7 +19,7 @@ pub enum Ended {
     Source(Diagnostic),
     /// The output does something else.
     Target(Diagnostic),
-    /// It does, for what it takes for granted of the source's numbers is not so.
+    /// It does, for what it assumes of the source's numbers is not so.
     NotSo(Diagnostic),
     /// It is long enough.
     Enough(Span),
@@ -44,7 +44,7 @@ pub(super) fn tells(ended: &Result<(), Ended>, run: &Run) -> bool {
     }
 }
 
-/// Whether a difference is told of the source: it leaves open what the target's control does.
+/// Whether a difference is reported of the source: it leaves open what the target's control does.
 pub(super) fn by_target(fault: &Fault) -> bool {
     matches!(
         fault,

@@ -1,6 +1,6 @@
 //! Open facts of both controls: what a parameter, a machine datum or the builder decides, and nobody has stated.
 //!
-//! Where a program comes to such a fact, a run forks off in which it has another value. The fork goes on beside the usual
+//! Where a program reaches such a fact, a run forks off in which it has another value. The fork goes on beside the usual
 //! run until both are in one state again, or until source and output differ in it: then the fact matters, and is
 //! reported. Silence means that the cut is the same under all values.
 //!
@@ -113,7 +113,7 @@ impl Run {
     }
 }
 
-/// A reader of the output, which reports what the output takes for granted of the target's control.
+/// A reader of the output, which reports what the output assumes of the target's control.
 pub fn reader_of_output(job: &Job) -> Reader {
     reader_of_text(job.to.clone())
 }
@@ -143,7 +143,7 @@ pub fn stopped(fault: &Diagnostic, next: Option<&Event>, last: Span) -> Stop {
 const CALLERS_FEED: Nanos = 137_000_000_137;
 
 impl Verifier {
-    /// The program is called by another, and states nothing of what was taken for granted: its text is read as the
+    /// The program is called by another, and states nothing of what was assumed: its text is read as the
     /// source was, in the unit of length that its caller has active.
     pub fn read_as_called(&mut self, job: &Job, assumed: &Modes) {
         let mut to = job.to.clone();
@@ -163,7 +163,7 @@ impl Verifier {
         self.runs.iter().any(|run| run.level)
     }
 
-    /// What the reading of the output takes for granted of the target's control: it counts as much as what the source's
+    /// What the reading of the output assumes of the target's control: it counts as much as what the source's
     /// reading does.
     pub fn note_assumed(&mut self) {
         for Diagnostic { fault, .. } in self.batch.diagnostics.drain(..) {
@@ -176,7 +176,7 @@ impl Verifier {
     }
 
     /// What the verification has to say of its own reach, of facts that would make another cut, and of what the output
-    /// takes for granted, if that is not `reported` yet.
+    /// assumes, if that is not `reported` yet.
     pub fn take_notes(&mut self, reported: &[Diagnostic]) -> Vec<Diagnostic> {
         let fed = self.runs.first().and_then(|run| run.source.arc_fed_otherwise(&run.target));
         let mut matters = std::mem::take(&mut self.matters);
@@ -217,7 +217,7 @@ impl Verifier {
         notes
     }
 
-    /// Facts that were not tried to the end, each control's once. That they matter is told before.
+    /// Facts that were not tried to the end, each control's once. That they matter is reported before.
     fn take_untried(&mut self) -> Vec<Diagnostic> {
         let mut told: Vec<Diagnostic> = Vec::new();
         for (other, at) in std::mem::take(&mut self.untried) {
@@ -234,7 +234,7 @@ impl Verifier {
         told
     }
 
-    /// Adds runs for the open facts of the source's control that statements come to.
+    /// Adds runs for the open facts of the source's control that statements reach.
     pub fn fork_for_source(&mut self, stmts: &[Stmt]) {
         if self.open[0] == 0 && !self.optional_stop {
             return;
@@ -249,7 +249,7 @@ impl Verifier {
         }
     }
 
-    /// Runs of the first world in which facts are to be tried that they come to, with these facts: a fact that is met
+    /// Runs of the first world in which facts are to be tried that they reach, with these facts: a fact that is met
     /// under the settings in which facts are tried is tried under no other.
     pub(super) fn met_by(&self, comes: impl Fn(&Run) -> u64) -> Vec<(usize, u64)> {
         let met = Verifier::of_first_world(&self.runs).map(|at| (at, comes(&self.runs[at])));
@@ -270,7 +270,7 @@ impl Verifier {
         own.into_iter()
     }
 
-    /// Adds runs for those of the target's control that the text read back comes to.
+    /// Adds runs for those of the target's control that the text read back reaches.
     pub fn fork_for_facts(&mut self) {
         if self.open[1] != 0 {
             let stmts = &self.batch.stmts;
@@ -387,7 +387,7 @@ impl Verifier {
         wrong.map_or(Ok(()), Err)
     }
 
-    /// Leaves runs out that have come to the state of the usual one: what follows is the same.
+    /// Leaves out runs that have reached the state of the usual one: what follows is the same.
     pub fn drop_same(&mut self) {
         let runs = &self.runs;
         self.others.retain_mut(|run| {
@@ -433,7 +433,7 @@ pub const OPTIONAL_STOP: u64 = 1 << 63;
 
 const _: () = assert!(Behaviour::ALL.len() < 63);
 
-/// Facts that statements come to from the state that a control is in, a bit each.
+/// Facts that statements reach from the state that a control is in, a bit each.
 #[inline]
 pub fn come_to(exec: &Exec, stmts: &[Stmt]) -> u64 {
     let stop = |stmt: &Stmt| matches!(stmt.op, Op::OptionalProgramStop);

@@ -1,7 +1,7 @@
-//! Runs of whole programs with another fact, from where the program comes to it until both are in one state again.
+//! Runs of whole programs with another fact, from where the program reaches it until both are in one state again.
 //!
 //! A run from the beginning to the end for each open fact costs as much as the verification itself. Here forks go beside
-//! the usual run, which is made anyway: where a statement comes to a fact, a run with its other value forks off and goes
+//! the usual run, which is made anyway: where a statement reaches a fact, a run with its other value forks off and goes
 //! on by the same steps of the program, until nothing is left of the difference. What forks have shown is judged when
 //! the usual runs are known to be the same.
 //!
@@ -37,7 +37,7 @@ struct Lane<'p> {
 /// A run with another fact.
 struct Fork<'p> {
     other: Other,
-    /// The statement that came to the fact.
+    /// The statement that reached the fact.
     at: Span,
     lane: Box<Lane<'p>>,
     /// Events and steps of the run where it forked off.
@@ -60,10 +60,10 @@ pub struct Forks<'p> {
     /// Runs with another fact from what was streamed before.
     carried: Vec<Run>,
     under_way: Vec<Fork<'p>>,
-    /// Facts that statements came to.
+    /// Facts that statements reached.
     pub met: Vec<Other>,
     pub(crate) shown: Vec<Shown>,
-    /// Facts that were not tried to the end, for that takes too long: where the program came to them.
+    /// Facts that were not tried to the end, for that takes too long: where the program reached them.
     pub left: Vec<(Other, Span)>,
     /// Events and steps of forks that are over.
     spent: Vec<(Other, [u64; 2])>,
@@ -157,7 +157,7 @@ impl<'p> Forks<'p> {
         self.watched = [bits(0), bits(1)];
     }
 
-    /// Whether nobody looks at plain moves that both controls come to: no run with another fact is under way, and none
+    /// Whether nobody looks at plain moves that both controls reach: no run with another fact is under way, and none
     /// would begin there.
     pub fn let_pass(&self, controls: [&Exec; 2], lines: &[Stmt]) -> bool {
         let comes = |(exec, watched): (&Exec, u64)| watched != 0 && watched & come_to(exec, lines) != 0;
@@ -191,7 +191,7 @@ impl<'p> Forks<'p> {
         }
     }
 
-    /// Forks runs off before a statement, with each fact that it comes to.
+    /// Forks runs off before a statement, with each fact that it reaches.
     fn fork(
         &mut self,
         side: usize,
@@ -287,7 +287,7 @@ impl<'p> Forks<'p> {
         std::array::from_fn(|at| before[at] + now[at].saturating_sub(fork.from[at]))
     }
 
-    /// Facts that a usual run has come to, in a way that is not seen before the statement.
+    /// Facts that a usual run reached, but not visibly before the statement.
     pub fn unseen(&self, usual: &Run) -> Vec<Other> {
         let asked = [usual.source.asked(), usual.target.asked()];
         let unseen = |other: &&Other| {
@@ -326,7 +326,7 @@ mod tests {
     const OUTPUT: &str = "G710 G17 G90 G40 G94 D0\nG54\nT1 M6\nD1\nS500 M3\nG0 X0 Y0\nZ10\nM0\n\
         R1=0\nWHILE R1 < 300\nG0 X=R1 * 0.01\nR1=R1 + 1\nENDWHILE\nG1 Z-1 F100\nM30\n";
 
-    /// What is told of the spindle at a stop of the target's control.
+    /// What is reported of the spindle at a stop of the target's control.
     fn told(reach: [u64; 2]) -> [bool; 2] {
         let settings = |dialect| Settings::new(builtin(dialect).expect("a built-in dialect"));
         let job = Job::new(settings("fanuc"), settings("siemens"), "fork.nc");

@@ -5,17 +5,17 @@
 //! ```
 //!
 //! The source is executed before its text is written, and for its effect on the state alone. When the text is read, and
-//! says holes at the same places under a cycle that comes to the same, the target's control follows: `ncc_exec` says why
+//! says holes at the same places under a cycle that gives the same, the target's control follows: `ncc_exec` says why
 //! that proves what two executions would (`moves::holes::same`). Anything else has the source executed event by event,
 //! and compared.
 //!
-//! Where the target has no such cycle, and says moves in the place of each hole, both sides execute what they are told, and
+//! Where the target has no such cycle, and says moves in the place of each hole, both sides execute their statements, and
 //! their straight moves are compared without the events that these are (`moves::holes::strokes`). Such a text is read as a
 //! table.
 //!
 //! A piece that ends in many holes is taken as two: the statements before them are executed and compared by themselves, so
 //! that the events of a piece with the beginning of a cycle are few too. The holes stand for both sides only if all
-//! controls agree behind those statements, and no run with another fact is left.
+//! controls agree after those statements, and no run with another fact is left.
 //!
 //! Not here: plain moves ([`Verifier::piece`]), and programs that are kept whole.
 
@@ -33,7 +33,7 @@ fn is_silent(stmt: &Stmt) -> bool {
     matches!(stmt.op, Op::Comment(_) | Op::Blank)
 }
 
-/// Where the block begins behind which statements are nothing but holes, these and remarks; their end, if there is none.
+/// Where the block begins after which statements are nothing but holes, these and remarks; their end, if there is none.
 fn before_holes(stmts: &[Stmt]) -> usize {
     let other = |stmt: &Stmt| !is_silent(stmt) && !are_holes(std::slice::from_ref(stmt));
     let from = stmts.iter().rposition(other).map_or(0, |at| at + 1);
@@ -52,7 +52,7 @@ impl Verifier {
         if !level || !are_holes(stmts) {
             return Ok(false);
         }
-        // What the source takes for granted from here on, the target does when its text is read.
+        // What the source assumes from here on, the target does when its text is read.
         if !self.holes_differ && self.runs.iter().all(|run| run.source.has_cycle_like(&run.target)) {
             self.pass_ahead(stmts, false)?;
             return Ok(true);
@@ -323,7 +323,7 @@ mod tests {
         }
     }
 
-    /// Nothing is told of these before a hole is made with them.
+    /// Nothing is reported of these before a hole is made with them.
     #[test]
     fn another_state_is_seen() {
         for state in ["F151", "S501", "M4", "G55", "M8", "G91"] {

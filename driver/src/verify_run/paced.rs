@@ -9,7 +9,7 @@
 //! target's control executes that, and the moves of both are compared: `ncc_exec` says why that proves what a comparison of
 //! events would (`moves::lines::paced`). Anything else has the source's moves compared as the events that they are.
 //!
-//! Where a fact of either control is open that these lines come to, they are left to execution, with a run for each of
+//! Where a fact of either control is open that these lines reach, they are left to execution, with a run for each of
 //! its values.
 //!
 //! Not here: lines without rotary axes ([`Verifier::piece`]), and programs that are kept whole.
@@ -60,7 +60,7 @@ impl Verifier {
         true
     }
 
-    /// The target's controls behind the text just read, if all make the moves of it that the source has made.
+    /// The target's controls after the text just read, if all make the moves of it that the source has made.
     fn paced_targets(&self) -> Option<Vec<PacedMade>> {
         let ahead = self.paced_ahead.as_ref().filter(|_| self.others.is_empty())?;
         let (read, open) = (&self.batch.stmts, self.open[1]);

@@ -1,6 +1,6 @@
 //! A program that runs twice in a row: both controls begin the next run alike.
 //!
-//! What a program leaves in force at its end, and relies on before it says it itself, makes another program of its next
+//! What a program leaves active at its end, and relies on before it says it itself, makes another program of its next
 //! run. The executor knows both (`ncc_exec`, `left`), so that the second run is not executed.
 
 use ncc_exec::Again;
@@ -77,7 +77,7 @@ impl Verifier {
             runs.iter().find_map(told)
         };
         let usual = (slots(behaviours), variables_apart(self.outliving.iter(), behaviours));
-        // Of a variable that others set, it is told anyway that it must be given.
+        // Of a variable that others set, it is reported anyway that it must be given.
         let variables = |behaviours| variables_apart(self.outliving.iter().filter(|one| one.set), behaviours);
         let mut found = Vec::new();
         for (behaviour, source) in self.open_at_end() {
@@ -97,7 +97,7 @@ impl Verifier {
         self.matters.append(&mut found);
     }
 
-    /// What a program that begins again takes for granted of its start, and has not in force where it begins again.
+    /// What a program that begins again assumes of its start, which is not active where it begins again.
     fn begins_otherwise(&self) -> Option<(ModeName, Span)> {
         let mut found = self.runs.iter().filter_map(|run| run.source.begins_otherwise(&self.assumed));
         found.next()

@@ -111,7 +111,7 @@ pub(super) struct HolesAhead {
 
 /// Holes of one run.
 pub(super) struct HolesMade {
-    /// The source's control behind them; its run has it as it is before them.
+    /// The source's control after them; its run has it as it is before them.
     pub(super) behind: Exec,
     pub(super) form: HoleForm,
     pub(super) events: u64,
@@ -134,7 +134,7 @@ pub(super) struct ArcsMade {
 
 /// Lines of one run that the source has made, and the target not yet.
 pub(super) struct PacedMade {
-    /// The source's control behind them; its run has it as it is before them.
+    /// The source's control after them; its run has it as it is before them.
     pub(super) behind: Exec,
     pub(super) moves: Vec<PacedMove>,
 }
@@ -144,7 +144,7 @@ pub struct Verifier {
     pub(super) reader: Reader,
     /// Whether the program is called by another.
     pub(super) as_called: bool,
-    /// Decisions of the source that have been told to go one way alone.
+    /// Branches of the source that are reported as one-sided.
     pub(super) answered: Vec<Span>,
     pub(super) batch: Batch,
     pub(super) runs: Vec<Run>,
@@ -152,7 +152,7 @@ pub struct Verifier {
     pub(super) others: Vec<Run>,
     /// Holes that the source has made, where the target is likely to make the same of them.
     pub(super) holes_ahead: Option<HolesAhead>,
-    /// Whether it did not, under the cycle in force.
+    /// Whether it did not, under the active cycle.
     pub(super) holes_differ: bool,
     /// Whether it did not go along their strokes either.
     pub(super) strokes_differ: bool,
@@ -166,7 +166,7 @@ pub struct Verifier {
     pub(super) optional_stop: bool,
     /// Facts that were found to make another cut, each where it does.
     pub(super) matters: Vec<(Other, Span)>,
-    /// Facts that were not tried to the program's end, each where the program came to it.
+    /// Facts that were not tried to the program's end, each where the program reached it.
     pub(super) untried: Vec<(Other, Span)>,
     /// Events and steps for which a fact is tried.
     pub(super) reach: [u64; 2],
@@ -198,9 +198,9 @@ pub struct Verifier {
     pub(super) last: Span,
     /// Variables that the source reads before it sets them, where both sides compute.
     pub(super) outliving: Vec<Outliving>,
-    /// What the source takes for granted of its start so far.
+    /// What the source assumes of its start so far.
     pub(super) assumed: Modes,
-    /// Straight moves one behind the other of which fewer are not packed, in a program that is read back whole.
+    /// Straight moves one after the other of which fewer are not packed, in a program that is read back whole.
     pub(super) shortest_stretch: usize,
     /// Bytes of a text that is read back whole, between which moves of it are packed.
     pub(super) piece: usize,

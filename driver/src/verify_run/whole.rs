@@ -1,7 +1,7 @@
 //! Programs that are kept whole: both are run from where they begin to their ends, against each other.
 //!
 //! What a program reads and has not set is given values (`values`). A set of values with which the source cannot be
-//! executed says nothing. Ways that were not gone are told.
+//! executed says nothing. Ways that were not gone are reported.
 
 mod lines;
 mod values;
@@ -45,17 +45,17 @@ const SETS: u32 = 200;
 /// Events of a run with such a set, and steps that it may do nothing.
 pub const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
 
-/// Sets of which one must come to the program's end; if none does, one of them is run as far as a program without
+/// Sets of which one must reach the program's end; if none does, one of them is run as far as a program without
 /// variables of others is.
 const FEW_SETS: u32 = 8;
 
-/// Decisions that are told; of more, the first ones.
+/// Branches that are reported; of more, the first ones.
 const MOST_TOLD: usize = 20;
 
-/// Blocks of the output that are told, where it decides more than the source.
+/// Blocks of the output that are reported, where it decides more than the source.
 const MOST_BLOCKS: usize = 3;
 
-/// Places of which it is asked whether a difference is made there; behind them it is told at the end.
+/// Places of which it is asked whether a difference is made there; after them it is reported at the end.
 const MOST_PLACES: usize = 64;
 
 /// One of the sets of values, and how far a program is run with it: events, and steps that nothing comes of.
@@ -67,7 +67,7 @@ pub struct Set {
 }
 
 impl Set {
-    /// A set of which the run may be cut short: another one comes to the end.
+    /// A set of which the run may be cut short: another one reaches the end.
     fn short(number: u32) -> Set {
         Set { number, most: MOST_OF_SET.0, idle: Some(MOST_OF_SET.1) }
     }
@@ -149,7 +149,7 @@ impl Verifier {
         given.renamed = renamed.clone();
         let verdict = self.whole_compared(source, &mut given, text, base, inherited, pairs);
         match verdict {
-            // A program that cannot be executed is told as that, whatever was made of it.
+            // A program that cannot be executed is reported as that, whatever was made of it.
             Err(Stop::Target(told)) => Err(alone(source, &given, before).unwrap_or(Stop::Target(told))),
             Ok(()) | Err(Stop::Source(_)) => verdict,
         }
@@ -287,7 +287,7 @@ impl Verifier {
         }
     }
 
-    /// Runs both programs with a set of values as far as any is: only a run that comes to its end shows that the
+    /// Runs both programs with a set of values as far as any is: only a run that reaches its end shows that the
     /// program has one.
     fn run_to_the_end(
         &self,
@@ -310,7 +310,7 @@ impl Verifier {
         }
     }
 
-    /// Runs both programs with sets of values, until every way of both was gone.
+    /// Runs both programs with sets of values, until every path of both was gone.
     fn with_sets(
         &self,
         starts: &[Run],
@@ -358,7 +358,7 @@ impl Verifier {
     }
 
     /// Runs both programs from where they begin, with one set of values. A difference that is none where what was
-    /// taken for granted of the source's numbers is read the other way tells that they are not so; another one is the
+    /// assumed of the source's numbers is read the other way tells that they are not so; another one is the
     /// output's.
     fn run_against<'p>(
         &self,

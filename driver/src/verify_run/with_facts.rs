@@ -86,7 +86,7 @@ impl Verifier {
         match ended {
             Err(Ended::Target(difference)) if !other.explains(run) => return Err(Stop::Target(difference)),
             Err(Ended::Target(difference)) => self.matters.push((other, difference.span)),
-            // So a difference is told where the source leaves open what the target's control does.
+            // So a difference is reported where the source leaves open what the target's control does.
             Err(Ended::Source(fault)) if by_target(&fault.fault) => {
                 if !other.explains(run) {
                     return Err(Stop::Source(fault));

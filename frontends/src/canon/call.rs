@@ -22,7 +22,7 @@ pub(crate) struct Call {
     pub(crate) skip: Option<Placed<Option<Num>>>,
     /// Place of the name.
     pub(crate) name: Placed<()>,
-    /// What stands between the brackets.
+    /// Contents of the brackets.
     pub(crate) arguments: Vec<Placed<Argument>>,
     /// Place of the closing bracket.
     pub(crate) close: usize,

@@ -1,4 +1,4 @@
-//! What the stream has said so far: units, plane, feed mode, tool, and where the axes are.
+//! What the stream has stated so far: units, plane, feed mode, tool, and where the axes are.
 
 use ncc_ir::canon::{AXES, Axis, FeedMode, Plane, Units};
 use ncc_ir::diag::Fault;
@@ -14,7 +14,7 @@ pub(super) enum Selected {
     Unsure,
 }
 
-/// What the text has said so far.
+/// What the text has stated so far.
 #[derive(Debug)]
 pub(super) struct CanonState {
     pub(super) units: Option<Units>,
@@ -60,7 +60,7 @@ impl CanonState {
         to.zip(self.positions[axis as usize]).is_some_and(|(a, b)| a.unit == b.unit && same(a, b))
     }
 
-    /// Takes note of what a statement leaves in force.
+    /// Takes note of what a statement leaves active.
     pub(super) fn after(&mut self, op: &Op, skipped: bool) {
         fn set<T: PartialEq>(fact: &mut Option<T>, value: T, skipped: bool) {
             let value = Some(value);

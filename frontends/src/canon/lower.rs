@@ -234,7 +234,7 @@ pub(super) fn lower(call: Call, text: &str, state: &mut CanonState, skipped: boo
 
 /// `ARC_FEED(first_end, second_end, first_axis, second_axis, rotation, axis_end_point, a, b, c)`
 fn arc(args: &mut Arguments<'_>, length: Unit, state: &CanonState) -> Result<Arc, Refused> {
-    // After a change of plane that may be skipped the axes cannot be told.
+    // After a change of plane that may be skipped the axes are not known.
     let plane =
         state.plane.ok_or_else(|| (Fault::EntryFactNeeded { fact: ModeName::Plane }, 0, args.close + 1))?;
     let (first, second, normal) = plane.axes();

@@ -12,7 +12,7 @@
 //! START_CUTTER_RADIUS_COMPENSATION(CANON_SIDE_LEFT | CANON_SIDE_RIGHT, entry)     entry of the table
 //! STOP_CUTTER_RADIUS_COMPENSATION()
 //! START_SPINDLE_CLOCKWISE()  START_SPINDLE_COUNTERCLOCKWISE()  STOP_SPINDLE_TURNING()
-//! MACHINE_FUNCTION("name")                        ours: what no dialect has a word for
+//! MACHINE_FUNCTION("name")                        ours: what no dialect supports
 //! SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP | CANON_EXACT_PATH | CANON_CONTINUOUS [, tolerance])
 //! EXACT_STOP()                                    ours: the move that follows ends in one
 //! SET_SPINDLE_MODE(CANON_TURNS_PER_MINUTE | CANON_SURFACE_SPEED)  LIMIT_SPINDLE_SPEED(s)     ours
@@ -68,7 +68,7 @@ pub struct Reader {
     /// Whether facts that the text relies on are taken from the dictionary.
     assume: bool,
     state: CanonState,
-    /// Facts that the text has said or that were taken for granted; for a user's text only.
+    /// Facts that the text has said or that were assumed; for a user's text only.
     said: Modes,
     moved: bool,
     /// Whether anything was found.
@@ -161,7 +161,7 @@ impl Reader {
                 let silent = matches!(op, Op::Blank | Op::Comment(_));
                 self.account(&op, skip.is_some(), span, silent, out);
                 self.state.after(&op, skip.is_some());
-                // A surface speed is said with the function that makes it one.
+                // A surface speed is stated with the function that makes it one.
                 let before = out.stmts.last().filter(|_| matches!(op, Op::SetSpindleSpeed(_)));
                 let surface = Op::SetSpindleMode(SpindleMode::Surface);
                 let joined = before.is_some_and(|stmt| stmt.op == surface && stmt.skip == skip);

@@ -11,7 +11,7 @@ use ncc_ir::program::cycle::absolute;
 pub(super) struct Straight {
     /// Rapid, or at feed.
     pub(super) traverse: bool,
-    /// Where to.
+    /// End point, in program coordinates.
     pub(super) to: Point,
     /// Length of the call.
     pub(super) length: usize,

@@ -111,8 +111,8 @@ impl Letters {
         letters
     }
 
-    /// With these signs: one that marks what can be skipped, one that opens a comment and the one that closes it, or 0
-    /// where the line's end does, and one behind which the rest of the line is a comment; 0 for none.
+    /// With these signs: one that marks what is under block skip, one that opens a comment and the one that closes it, or 0
+    /// where the line's end does, and one after which the rest of the line is a comment; 0 for none.
     pub(crate) fn with_signs(mut self, skip: u8, [open, close, line]: [u8; 3]) -> Letters {
         self.close = close;
         let open_kind = if close == 0 { Kind::Remark } else { Kind::Comment };
@@ -233,7 +233,7 @@ impl Line {
         self.seen & AXES != 0 && self.seen & !AXES == 0
     }
 
-    /// Whether it has nothing but words of a plane's axes, one at least: a position, where a cycle is in force.
+    /// Whether it has nothing but words of a plane's axes, one at least: a position, where a cycle is active.
     pub(crate) fn is_position(&self, plane: Plane) -> bool {
         let (first, second, _) = plane.axes();
         let in_plane = 1u16 << first as u16 | 1 << second as u16;
@@ -355,7 +355,7 @@ fn equals(kind: Kind, here: &[u8; WINDOW]) -> (Kind, usize) {
     }
 }
 
-/// The number behind the sign at `at`, the length of both, and the byte after it.
+/// The number after the sign at `at`, the length of both, and the byte after it.
 fn value_behind(text: &[u8], at: usize) -> Option<(Digits, usize, u8)> {
     match text.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
         Some(here) => value(here, text, at),
@@ -430,9 +430,9 @@ fn is_in_range(digits: Digits) -> bool {
 pub(crate) enum Path {
     Traverse,
     Feed,
-    /// Whatever is in force when the program runs.
+    /// Whatever is active when the program runs.
     Position,
-    /// To a hole of the cycle in force.
+    /// To a hole of the active cycle.
     Hole,
     Arc {
         plane: Plane,

@@ -1,6 +1,6 @@
 //! The short way for plain moves: from a line straight to a row of a table, or to its statements, without the words and
-//! the block between. Taken by a block of at most a block number, the code of the motion that is in
-//! force, X, Y and Z, and a feed, while every fact that it depends on is settled. Nearly every
+//! the block between. Taken by a block of at most a block number, the code of the motion that is active,
+//! X, Y and Z, and a feed, while every fact that it depends on is settled. Nearly every
 //! block of a long program is one.
 //!
 //! It gives what the long way gives; a test holds both to the same result. Whatever is not settled,
@@ -20,15 +20,15 @@ use super::words::Digits;
 pub(crate) struct FastLower {
     pub(crate) unit: Unit,
     pub(crate) distance: Fact<Distance>,
-    /// Whether the motion in force is at feed.
+    /// Whether the active motion is at feed.
     pub(crate) feed: bool,
     /// Letter of the block number.
     pub(crate) number: u8,
     /// Whether a number means the same with and without a point.
     pub(crate) bare: bool,
-    /// Number of the G code that says the motion in force once more, and changes nothing else.
+    /// Number of the G code that says the active motion once more, and changes nothing else.
     pub(crate) repeated_motion: Option<u8>,
-    /// Number of the G code that says the other straight motion, where it changes nothing but which of the two is in force.
+    /// Number of the G code that says the other straight motion, where it changes nothing but which of the two is active.
     pub(crate) other_motion: Option<u8>,
     /// What a feed word needs, if it would change no more than the feed.
     pub(crate) feed_word: Option<FeedWord>,
@@ -79,7 +79,7 @@ pub(crate) fn line(
     let (mut seen, mut said, mut at_feed) = (0u8, false, fast.feed);
     let (mut first, mut last) = (from, from);
     let mut at = from;
-    // Behind a word a blank is passed over without a branch: whether one follows or the line's end is hard to guess.
+    // After a word a blank is passed over without a branch: whether one follows or the line's end is hard to guess.
     let end = loop {
         let beyond;
         let here = match text.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {

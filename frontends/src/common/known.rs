@@ -10,11 +10,11 @@ pub(crate) enum Know<T> {
     Unsaid,
     /// The program has said it.
     Said(T),
-    /// The program relies on it and never said it: taken for granted.
+    /// The program relies on it and never said it: assumed.
     Taken(T),
     /// Said on some way to here, or by somebody else.
     Lost,
-    /// The program has not said it up to a place that can be come to from elsewhere: the first time here it is as the
+    /// The program has not said it up to a place that is a jump target: the first time here it is as the
     /// program began, and any other time perhaps not.
     Open,
     /// A subprogram has not said it: it is as its caller leaves it.
@@ -66,7 +66,7 @@ impl<T> Know<T> {
 impl<T: PartialEq> Know<T> {
     /// What is known after a block that may have been skipped; `before` is what was before it.
     pub(crate) fn join(&mut self, before: Know<T>) {
-        // What was taken for granted in the block holds without it as well.
+        // What was assumed in the block holds without it as well.
         let taken = matches!((&before, &self), (Know::Unsaid, Know::Taken(_)));
         if *self != before && !taken {
             *self = Know::Lost;

@@ -33,7 +33,7 @@ pub(crate) struct ModalState<M> {
     pub(crate) work_offset: Know<u16>,
     /// Whether a tool length offset may be active; `false` where it is cancelled.
     pub(crate) length: Know<bool>,
-    /// Whether no shift of the origin is active.
+    /// Whether no G92 shift is active.
     pub(crate) no_shift: Know<bool>,
     /// Whether the text has said a feed.
     pub(crate) feed: Know<()>,
@@ -103,7 +103,7 @@ impl<M: Copy + PartialEq> ModalState<M> {
         }
     }
 
-    /// Which modes the text has not said so far.
+    /// Which modes the text has not stated so far.
     pub(crate) fn unsaid(&self) -> Unsaid {
         Unsaid(0)
             .with(ModeName::Distance, self.distance)
@@ -148,7 +148,7 @@ impl<M: Copy + PartialEq> ModalState<M> {
         self.motion.forgive();
     }
 
-    /// Whether a straight move relies on a mode that nothing has said or asked for yet, the shift of the origin apart.
+    /// Whether a straight move relies on a mode that nothing has said or asked for yet, the G92 shift apart.
     pub(crate) fn is_open_to_moves(&self) -> bool {
         self.distance.unsaid() || self.units.unsaid() || self.work_offset.unsaid() || self.length.unsaid()
     }
@@ -166,7 +166,7 @@ impl<M: Copy + PartialEq> ModalState<M> {
         inherited.has_noted(&self.length, ModeName::LengthOffset)
     }
 
-    /// Whether a feed word relies on what it counts without anything to be told of that, or noted.
+    /// Whether a feed word relies on what it counts without anything to be reported of that, or noted.
     pub(crate) fn is_feed_mode_settled(&self, assume: bool, inherited: &Inherited) -> bool {
         !(assume && self.feed_mode.unsaid()) && inherited.has_noted(&self.feed_mode, ModeName::FeedMode)
     }

@@ -79,7 +79,7 @@ mod tests {
     use crate::{Word, words};
     use ncc_dialects::{Dialect, Family};
 
-    /// What the lexers tell of a line: a comment behind it, which has no words, keeps the short way off.
+    /// What the lexers tell of a line: a comment after it, which has no words, keeps the short way off.
     fn by_lexer(dialect: &'static Dialect, line: &str) -> Vec<(u8, Option<u32>)> {
         let comment = &dialect.comment;
         let sign = if comment.open.trim().is_empty() { &comment.line } else { &comment.open };

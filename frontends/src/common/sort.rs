@@ -15,7 +15,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::SetDistanceMode(_) => 3,
         Meaning::SetFeedMode(_) => 4,
         Meaning::SetOriginOffsets(_) => 5,
-        // Behind the plane that it is in.
+        // After the plane that it is in.
         Meaning::PolarWords(_) | Meaning::SetPole(_) => 9,
         Meaning::ClearFrame(_) | Meaning::UseOriginShift(_) => 6,
         Meaning::SetReturnLevel(_) | Meaning::SetCentreMode(_) => 7,

@@ -2,7 +2,7 @@
 
 use super::known::Know;
 
-/// What a text has said so far of something that can be on, wherever it was said.
+/// What a text has stated so far of something that can be on, wherever it was stated.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Met {
     /// Whether it was switched on.

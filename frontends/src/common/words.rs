@@ -54,7 +54,7 @@ pub(crate) enum Value {
 /// A word: a letter and what follows it. Its span is in the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Word {
-    /// A capital, `:`, or a small letter where it stands behind a comma.
+    /// A capital, `:`, or a small letter where it stands after a comma.
     pub(crate) letter: u8,
     pub(crate) value: Value,
     pub(crate) span: Span,

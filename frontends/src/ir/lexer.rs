@@ -178,7 +178,7 @@ pub(crate) enum Token {
     #[token("shortest", |_| RotaryWay::Shortest)]
     #[token("positive", |_| RotaryWay::Positive)]
     #[token("negative", |_| RotaryWay::Negative)]
-    /// Which way round.
+    /// Direction.
     RotaryWay(RotaryWay),
     #[token("pole")]
     Pole,

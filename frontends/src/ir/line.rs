@@ -24,7 +24,7 @@ pub(crate) enum Line {
     Version(u32),
     /// The program's name.
     Program(ProgramName),
-    /// Facts taken for granted.
+    /// Facts assumed.
     Assumed(Modes),
     /// Opens a procedure.
     Procedure(Procedure),
@@ -277,7 +277,7 @@ pub(crate) fn polar(op: Op, l: usize, r: usize) -> Parsed<Op> {
     }
 }
 
-/// Which way round rotary axes go, each at most once.
+/// The direction in which rotary axes turn, each at most once.
 pub(crate) fn rotary_ways(
     first: (Axis, RotaryWay),
     rest: Vec<(Axis, RotaryWay)>,
@@ -302,7 +302,7 @@ pub(crate) fn rotary_ways(
     Ok(Op::TurnRotaryAxes(directions))
 }
 
-/// A move that can be said by its angle.
+/// A move that can be stated by its angle.
 pub(crate) fn straight(op: Op, l: usize, r: usize) -> Parsed<Op> {
     match op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) => Ok(op),
@@ -310,7 +310,7 @@ pub(crate) fn straight(op: Op, l: usize, r: usize) -> Parsed<Op> {
     }
 }
 
-/// The number of a point of the machine.
+/// The number of a reference point.
 pub(crate) fn point_number(n: u32, least: u8, most: u8, l: usize, r: usize) -> Parsed<u8> {
     match u8::try_from(n) {
         Ok(n) if (least..=most).contains(&n) => Ok(n),

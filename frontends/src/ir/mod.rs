@@ -21,8 +21,8 @@
 //!
 //! A line holds statements of one block, joined by `&`; a line that begins with `&` goes on with the
 //! block before. Statements outside of procedures are the main procedure's. A coordinate is absolute
-//! unless marked `inc`, or `entry` for the mode that the caller has in force. A number carries its
-//! unit: `mm`, `in`, `deg`, `s`, `u` for the unit of length in force, none for a pure number. `said`
+//! unless marked `inc`, or `entry` for the mode that the caller has active. A number carries its
+//! unit: `mm`, `in`, `deg`, `s`, `u` for the unit of length active, none for a pure number. `said`
 //! marks a block that writes its motion code itself. A joined statement has the skip level of the
 //! statement before it, unless it has its own; `/0` is none.
 //!

@@ -1,11 +1,11 @@
 //! Whether a text is a milling program at all, or what else it looks like.
 //!
 //! `G21 G99 / T0303 / G92 X29.5 Z-20. F1.5 / X29.1` is a thread on a lathe. A milling control would read the
-//! same blocks as a shift of the origin and rapid moves into the part. So every text is weighed before a dialect
+//! same blocks as a G92 shift and rapid moves into the part. So every text is weighed before a dialect
 //! reads it: [`signs`] lists what gives a kind of program away, `blocks` cuts the text into words that all these
 //! languages share, `course` follows what only several blocks together show.
 //!
-//! Not here: which milling dialect a text is written in, what its words mean, and what is told to the user.
+//! Not here: which milling dialect a text is written in, what its words mean, and what ncc reports.
 
 mod blocks;
 mod course;

@@ -52,7 +52,7 @@ pub(super) struct Words {
 pub(super) const NAMED: usize = NameRole::ChamferCornerByLength as usize + 1;
 
 impl Words {
-    /// Takes out which way round an axis goes, if a word of it says so.
+    /// Takes out the direction of an axis, if a word states it.
     pub(super) fn take_way(&mut self, letter: u8) -> Option<(RotaryWay, Span)> {
         let given = self.letters[usize::from(letter - b'A')].as_mut()?;
         given.way.take().map(|way| (way, given.span))

@@ -1,6 +1,6 @@
 //! Lowering of programmed frames: `TRANS`, `ROT`, `SCALE`, `MIRROR` and the forms that append.
 //!
-//! Refused by name: rotations about an axis of the plane in force, and an appending word without
+//! Refused: rotations about an axis of the active plane, and an appending word without
 //! axes.
 
 use ncc_dialects::{FrameWord, NameMeaning, NameRole, Quantity};

@@ -144,7 +144,7 @@ impl Lower {
                 }
                 Meaning::FloodOn => Op::FloodOn,
                 Meaning::MistOn => Op::MistOn,
-                // By the radius of the edge in force.
+                // By the radius of the active edge.
                 Meaning::StartCutterRadiusCompensation(side) => {
                     Op::StartCutterRadiusCompensation { side, radius: CutterRadius::InForce }
                 }
@@ -221,7 +221,7 @@ impl Lower {
     }
 
     fn count_feed(&mut self, mode: FeedMode) {
-        // A feed that was said before does not count any more.
+        // A feed that was stated before does not count any more.
         let other = self.state.modes.feed_mode.value().is_some_and(|before| before != mode);
         if other || mode == FeedMode::InverseTime {
             (self.state.modes.feed, self.state.spent) = (Know::Unsaid, true);
@@ -245,7 +245,7 @@ impl Lower {
         let after = counts(self.state.scaled, self.state.modes.units);
         let real = |unit: Option<Unit>| unit.map(|u| if u == Unit::One { basic } else { u });
         if before.is_some() && real(before) != real(after) && self.state.modes.feed == Know::Said(()) {
-            // What a feed counts that was said before is not known.
+            // What a feed counts that was stated before is not known.
             self.state.modes.feed = Know::Unsaid;
         }
         let relied = [self.only_units.see(units), self.only_scaled.see(scaled)];
@@ -306,7 +306,7 @@ impl Lower {
         }
         let [within, rapids] = lengths;
         if mode == PathMode::Distance && within.is_none() {
-            // One that was said before stays in force; what that is, is not followed.
+            // One that was stated before stays active; what that is, is not followed.
             let what = CodeUnsupported::RoundingDistance;
             return self.not_supported(code.name, what, code.span, out);
         }

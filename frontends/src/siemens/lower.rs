@@ -4,7 +4,7 @@
 //! diagnostics and no statements; what it says of modes still counts, so that one slip is not
 //! reported again at every block after it.
 //!
-//! Refused by name, wherever it stands: synchronised actions, macros, calls by path.
+//! Refused, wherever it stands: synchronised actions, macros, calls by path.
 //!
 //! Not here: which word is what (`sort`), what is computed (`computing`), the program's flow (`flow`), and what
 //! the functions, moves, frames, cycles, patterns and calls of a block mean; they have files of their own beside
@@ -45,36 +45,36 @@ use crate::siemens::values::variables::Variables;
 #[derive(Debug)]
 pub(super) struct Lower {
     pub(super) settings: Settings,
-    /// Whether what the program never says is taken for granted and reported.
+    /// Whether what the program never says is assumed and reported.
     pub(super) assume: bool,
-    /// What subprograms find in force.
+    /// What subprograms find active.
     pub(super) inherited: Inherited,
-    /// Whether the program is another's that is not in the text, and goes back to it.
+    /// Whether the program is another's that is not in the text, and returns to it.
     pub(super) called: bool,
     /// Whether refused blocks are noted.
     pub(super) watch: bool,
-    /// Whether what is taken for granted of the control is told: its modes are by `assume` alone.
+    /// Whether what is assumed of the control is reported: its modes are by `assume` alone.
     pub(super) reports: bool,
     pub(super) state: SiemensState,
     pub(super) only_units: OnlyValue<Units>,
     pub(super) only_scaled: OnlyValue<bool>,
     pub(super) only_plane: OnlyValue<Plane>,
     pub(super) repeated_blocks: RepeatedBlocks,
-    /// Where the tool stands, as far as words have said it.
+    /// Tool position, as far as words have said it.
     pub(super) stand: Stand,
-    /// What the statements have put in force last, as a subprogram's position would find it.
+    /// What the statements have activated last, as a subprogram's position would find it.
     pub(super) moved: Option<Motion>,
-    /// Whether no move has followed the code of the motion in force.
+    /// Whether no move has followed the code of the active motion.
     pub(super) motion_without_move: bool,
-    /// Whether a cycle was called up where the motion in force is not known: it is not known after
+    /// Whether a cycle was activated where the active motion is not known: it is not known after
     /// it either.
     pub(super) cycled: bool,
-    /// Whether the cycle in force must be called up again, because a feed was said since.
+    /// Whether the active cycle must be activated again, because a feed was stated since.
     pub(super) recall: bool,
-    /// Whether the modal tap in force has put its own speed in force and made no hole yet: until it does,
-    /// the control has the speed that was said before.
+    /// Whether the active modal tap has activated its own speed and made no hole yet: until it does,
+    /// the control has the speed that was stated before.
     pub(super) idle_tap: bool,
-    /// Whether control has gone elsewhere, or a switch has left in doubt, where a motion at feed was in force.
+    /// Whether control has gone elsewhere, or a switch has left in doubt, where a motion at feed was active.
     pub(super) feed_away: bool,
     /// Where a position was first taken for rapid that such a motion may reach.
     pub(super) rapid_taken: Option<Span>,
@@ -85,9 +85,9 @@ pub(super) struct Lower {
     pub(super) reported: HashSet<Box<str>>,
     /// The subprogram that is being read; `None` in the main program.
     pub(super) sub: Option<Procedure>,
-    /// What `MCALL` had put in force where the subprogram was called.
+    /// What `MCALL` had activated where the subprogram was called.
     pub(super) entry: ModalCall,
-    /// What the text that begins is, where something says so: its header, its heading, or its file's name.
+    /// What the text that begins is, as far as its header, its heading, or its file's name states it.
     pub(super) unit: Option<Kind>,
     /// Where the text first moves at a feed that it has not stated: that of its caller, if it is a subprogram.
     pub(super) callers_feed: Option<Span>,
@@ -104,9 +104,9 @@ pub(super) struct Lower {
     pub(super) exprs: Vec<Typed>,
     pub(super) flow: Flow,
     pub(super) handed: Handed,
-    /// Whether the value of a work offset was set that may be in force, and none has been called up since.
+    /// Whether the value of a work offset was set that may be active, and none has been activated since.
     pub(super) stale: bool,
-    /// What a computed number of a table's entry is worth, where a statement is read for each of them.
+    /// Value of a computed number of a table's entry, where a statement is read for each of them.
     pub(super) worth: Option<u32>,
     /// Such statements.
     pub(super) saved: Saved,
@@ -120,10 +120,10 @@ pub(super) struct Lower {
 #[derive(Debug)]
 struct Stretch {
     level: u8,
-    /// What was in force before the first of them.
+    /// What was active before the first of them.
     before: SiemensState,
     moved: Option<Motion>,
-    /// What is in force if they are not skipped.
+    /// What is active if they are not skipped.
     inside: SiemensState,
     moved_inside: Option<Motion>,
 }
@@ -239,7 +239,7 @@ impl Lower {
         self.refresh();
     }
 
-    /// What was in force before a block that may be skipped, or before the first of several that are
+    /// What was active before a block that may be skipped, or before the first of several that are
     /// skipped together.
     fn enter_stretch(&mut self, head: &Head, out: &mut Batch) -> Option<(SiemensState, Option<Motion>)> {
         let stretch = self.stretch.take();
@@ -251,14 +251,14 @@ impl Lower {
                 Some((stretch.before, stretch.moved))
             }
             _ => {
-                // What a block in it says in its place is not in force where that is skipped.
+                // What a block in it says in its place is not active where that is skipped.
                 self.leave_motion_before(head.span, out);
                 Some((self.state.clone(), self.moved))
             }
         }
     }
 
-    /// What is in force after a block that may be skipped; `before` is what was in force before the first of those that
+    /// What is active after a block that may be skipped; `before` is what was active before the first of those that
     /// are skipped together.
     fn leave_stretch(
         &mut self,
@@ -405,7 +405,7 @@ impl Lower {
         let Some((item, after)) = rest.split_first() else {
             return false;
         };
-        // A slip of the pen is told as one, and not as a call.
+        // A slip of the pen is reported as one, and not as a call.
         if let Some(letter) = crate::siemens::text::letters::letter_for_zero(src, head.span) {
             self.fault(Fault::LetterOForZero, letter, out);
             return true;

@@ -1,10 +1,10 @@
 //! Lowering of messages and alarms.
 //!
-//! A message may have values in it: whole numbers as they are, real ones with up to ten digits behind the point, as the
+//! A message may have values in it: whole numbers as they are, real ones with up to ten digits after the point, as the
 //! manual has it, of which nine are kept; zeros at their end are not written. A value that begins it has `<<` before it,
 //! which makes a text of one value (Job planning, string operations, conversion to STRING).
 //!
-//! Refused by name: alarms of ranges that do not end the program, or of which that is not known.
+//! Refused: alarms of ranges that do not end the program, or of which that is not known.
 
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
@@ -120,7 +120,7 @@ impl Lower {
         self.push(at, Op::Alarm(Box::new(Alarm { number, text })), out);
     }
 
-    /// That an alarm ends the program is taken for granted, by the range of its number.
+    /// That an alarm ends the program is assumed, by the range of its number.
     fn ends_program(&mut self, at: Span, out: &mut Batch) {
         if self.first_time("SETAL") {
             out.report(Fault::AssumedFact { fact: ControlFact::AlarmsEnd }, at);

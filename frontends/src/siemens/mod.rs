@@ -7,7 +7,7 @@
 //! nothing had happened.
 //!
 //! `reader` takes a text line by line and gives each block to `lower`, which with its neighbours
-//! makes statements of it: by the dictionary, and by what the program has said so far (`siemens_state`).
+//! makes statements of it: by the dictionary, and by what the program has stated so far (`siemens_state`).
 //!
 //! Not here: what execution makes of a program, and everything about files.
 

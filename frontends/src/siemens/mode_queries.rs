@@ -133,7 +133,7 @@ impl Lower {
     /// What bare axis words do: `None` if that is only known when the program runs.
     ///
     /// # Errors
-    /// The program has not said it, and nothing may be taken for granted (reported).
+    /// The program has not said it, and nothing may be assumed (reported).
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
         self.repeated_blocks.use_fact(MOTION);
         let (modes, mut by) = self.asker(at, out);

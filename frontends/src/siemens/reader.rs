@@ -6,7 +6,7 @@
 //! one. The first program of a text is the main one; a unit of type SPF that follows is a subprogram.
 //! Without headers the whole text is the main program.
 //!
-//! Refused by name: a second main program, units that are no programs, and subprograms that only a
+//! Refused: a second main program, units that are no programs, and subprograms that only a
 //! path could call.
 
 use ncc_dialects::Settings;

@@ -42,7 +42,7 @@ impl From<ncc_ir::canon::Motion> for Motion {
     }
 }
 
-/// The cycle, or subprogram, that `MCALL` has put in force.
+/// The cycle, or subprogram, that `MCALL` has activated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum ModalCall {
     #[default]
@@ -50,12 +50,12 @@ pub(super) enum ModalCall {
     Active(Box<Cycle>),
     /// A subprogram that is called where a block with motion ends.
     Subprogram(Box<AfterMove>),
-    /// The caller's; one is in force.
+    /// The caller's; one is active.
     Inherited {
         /// Whether it has a feed of its own, or may have.
         own_feed: bool,
     },
-    /// Whether one is in force is only known when the program runs.
+    /// Whether one is active is only known when the program runs.
     Lost {
         /// Whether it may have a feed of its own.
         own_feed: bool,
@@ -74,7 +74,7 @@ pub(super) struct AfterMove {
 }
 
 impl ModalCall {
-    /// Whether a cycle may be in force that has a feed of its own.
+    /// Whether a cycle may be active that has a feed of its own.
     pub(super) fn own_feed(&self) -> bool {
         match self {
             ModalCall::None | ModalCall::Refused | ModalCall::Subprogram(_) => false,
@@ -94,11 +94,11 @@ pub(super) struct SiemensState {
     pub(super) surface: Know<bool>,
     /// Where a tool was changed without naming an edge, which no move has relied on yet.
     pub(super) implied_edge: Option<Span>,
-    /// Whether the way of counting has left no feed in force: a move without one is refused where it is executed.
+    /// Whether the way of counting has left no active feed: a move without one is refused where it is executed.
     pub(super) spent: bool,
     pub(super) cycle: ModalCall,
     pub(super) pole: Pole,
-    /// Axes that the frames in force may shift, turn, scale or mirror.
+    /// Axes that the active frames may shift, turn, scale or mirror.
     pub(super) in_frame: [bool; AXES],
 }
 
@@ -154,7 +154,7 @@ impl Stand {
     }
 }
 
-/// What is known of the pole in force.
+/// What is known of the active pole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Pole {
     /// None was set: it is at zero.

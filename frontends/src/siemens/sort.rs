@@ -220,7 +220,7 @@ impl Lower {
                         | NameRole::PolarAngle
                         | NameRole::LineAngle
                 );
-                // Which way round the spindle goes to where it stops cuts nothing, where it is the shortest.
+                // In which direction the spindle goes to where it stops cuts nothing, where it is the shortest.
                 let stop = role == NameRole::SpindleAngle;
                 if given.way.is_some_and(|way| !(stop && way == RotaryWay::Shortest)) {
                     let what = CodeUnsupported::WayOfOtherWord;
@@ -302,7 +302,7 @@ impl Lower {
         }
     }
 
-    /// What stands behind `=`: a constant, or what is computed.
+    /// What stands after `=`: a constant, or what is computed.
     pub(super) fn constant(
         &mut self,
         value: &Value,

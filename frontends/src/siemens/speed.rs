@@ -1,4 +1,4 @@
-//! What a speed counts, its limit, and the spindle stopped at an angle.
+//! What a speed counts, its limit, and oriented spindle stop.
 //!
 //! One modal group says what a feed and what a speed counts, so that a code of the feed ends a surface speed.
 
@@ -62,7 +62,7 @@ impl Lower {
         }
     }
 
-    /// The spindle stopped at an angle.
+    /// Oriented spindle stop.
     pub(super) fn spindle_angle(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         let Some(given) = words.take_named(NameRole::SpindleAngle) else { return };
         if words.has_point() {

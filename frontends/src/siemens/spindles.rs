@@ -1,7 +1,7 @@
 //! Spindles and tools that are named: the first spindle by its number, the master spindle, tools by name;
 //! and words of the dictionary with arguments of their own.
 //!
-//! Refused by name: other spindles than the first, and tolerances of the path in the coding of older
+//! Refused: other spindles than the first, and tolerances of the path in the coding of older
 //! controls.
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Role};
@@ -68,7 +68,7 @@ impl Lower {
         self.push(text, Op::SelectToolByName(name), out);
     }
 
-    /// Which spindle the words without a number mean is taken for granted, and told once.
+    /// Which spindle the words without a number mean is assumed and reported once.
     pub(super) fn master_spindle(&mut self, at: Span, out: &mut Batch) {
         if self.first_time(MASTER) {
             out.report(Fault::AssumedFact { fact: ControlFact::MasterSpindle }, at);

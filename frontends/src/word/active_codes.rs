@@ -1,4 +1,4 @@
-//! The T and the H code in force: those that the program has said last on every path, or, before it has said any, those
+//! The T and the H code active: those that the program has said last on every path, or, before it has said any, those
 //! that the user states of its start, by the variables that a macro reads them with.
 //!
 //! ```text
@@ -63,7 +63,7 @@ impl Lower {
         Some(stated)
     }
 
-    /// Takes up a length by the entry that was named before: that of the last word.
+    /// Applies a length by the entry that was named before: that of the last word.
     pub(super) fn length_as_before(&mut self, code: &Code, words: &Words, out: &mut Batch) {
         let letter = char::from(self.roles.length_entry);
         let code_text: Box<str> = code.row.code.as_str().into();
@@ -88,7 +88,7 @@ impl Lower {
         self.use_entry(Expr::int(i64::from(entry)), code.span, words, out);
     }
 
-    /// The end of the text: a program that begins again has in force what it was stated to start with.
+    /// The end of the text: a program that begins again has active what it was stated to start with.
     pub(super) fn starts_again_alike(&mut self, out: &mut Batch) {
         let Some(at) = self.tools.at_start.begins_again else { return };
         let AtStart { used, said, several, .. } = self.tools.at_start;

@@ -118,7 +118,7 @@ pub(in crate::word) struct UsualBlocks {
     pub(in crate::word) motions: [Option<Motion>; 4],
     /// The numbers of the codes of straight motions, the one at feed last.
     pub(in crate::word) straight: [Option<u8>; 2],
-    /// Whether one of these changes the motion and nothing else, where the other one is in force.
+    /// Whether one of these changes the motion and nothing else, where the other one is active.
     pub(in crate::word) switches: bool,
     /// Whether X, Y and Z are lengths.
     pub(in crate::word) linear: bool,

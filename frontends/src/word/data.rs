@@ -1,7 +1,7 @@
 //! Lowering of work offsets that a word of the block names, and of values put into the control's tables.
 //!
-//! Refused by name: tables that the dictionary does not have, entries outside their numbers, and values
-//! put in while a cycle is in force or where it is not known whether they are added.
+//! Refused: tables that the dictionary does not have, entries outside their numbers, and values
+//! put in while a cycle is active or where it is not known whether they are added.
 
 use ncc_dialects::{AT_ZERO, DataKind, DataRow, Meaning, Quantity, RADIUS_DATA, STORED_POSITION};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
@@ -70,7 +70,7 @@ impl Lower {
 
     fn table(&mut self, code: &Code, row: &'static DataRow, words: &mut Words, src: Source, out: &mut Batch) {
         let row_name = || Box::<str>::from(row.name.as_str());
-        // Execution looks at what is not known here: where a caller, or a block that may be skipped, has a cycle in force.
+        // Execution looks at what is not known here: where a caller, or a block that may be skipped, has an active cycle.
         let active = matches!(self.state.cycle, CycleState::Active(_));
         if active {
             let what = TableUnsupported::InCycle.into();
@@ -120,7 +120,7 @@ impl Lower {
             return self.measured(code, row, number, words, src, out);
         }
         self.check_shut(code, out);
-        // A zero that is stated is what it is, whatever length counts; one from where the tool stands is not.
+        // A zero that is stated is what it is, whatever length counts; one from where the tool is is not.
         if row.kind == DataKind::OffsetHere && words.get(b'Z').is_some() && self.level_open() {
             words.left = 0;
             return self.refuse_level(code.span, out);
@@ -163,7 +163,7 @@ impl Lower {
         self.end_block_here();
     }
 
-    /// The number of an entry that the table has; 0 may be the one in force.
+    /// The number of an entry that the table has; 0 may be the active one.
     fn existing(
         &mut self,
         mut number: u32,
@@ -205,7 +205,7 @@ impl Lower {
         }
     }
 
-    /// Why the number of an entry is refused: it is the T or H code in force before the program has said one, or only
+    /// Why the number of an entry is refused: it is the T or H code active before the program has said one, or only
     /// known when it runs.
     fn unknown_entry(&self, number: &Expr) -> TableUnsupported {
         let asked = |node: &Node| match node {
@@ -228,7 +228,7 @@ impl Lower {
         number
     }
 
-    /// Where the axes stand becomes a stored position; or the number of the tool in the spindle is said.
+    /// Where the axes stand becomes a stored position; or the number of the tool in the spindle is stated.
     pub(super) fn stored(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         let code_text: Box<str> = code.row.code.as_str().into();
         let data = match code.meaning {
@@ -255,7 +255,7 @@ impl Lower {
         self.push(code.span, Op::SetData(Box::new(data)), out);
     }
 
-    /// A length of the tool by its value, or one that is added to the one in force.
+    /// A length of the tool by its value, or one that is added to the active one.
     pub(super) fn stated_length(
         &mut self,
         code: &Code,

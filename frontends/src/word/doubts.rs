@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! T1 / M06 T2 / G43 H1          tool 2 with the length of tool 1, or tool 1
-//! G91 G28 X0 Y0 Z0. G90         by way of zero of the part, or from where the axes stand
+//! G91 G28 X0 Y0 Z0. G90         through zero of the part, or from where the axes stand
 //! ```
 //!
 //! Each is an assumption, which is asked where both readings make two different cuts. Not here: what a control puts
@@ -44,7 +44,7 @@ impl Lower {
         self.tools.now = None;
     }
 
-    /// A length is called up: with the number of the tool that waited, it contradicts the T beside M06.
+    /// A length is activated: with the number of the tool that waited, it contradicts the T beside M06.
     pub(super) fn length_named(&mut self, word: &Word, out: &mut Batch) {
         let Some((named, waiting, span)) = self.tools.doubt.take() else { return };
         let contradicts = word.to_whole() == Some(waiting);
@@ -94,7 +94,7 @@ impl Lower {
             && self.settings.takes(RETURN_DISTANCE, RETURN_FIRST)
     }
 
-    /// Two codes of distance in one block: the last one is in force after it. In the block of a return, the option of
+    /// Two codes of distance in one block: the last one is active after it. In the block of a return, the option of
     /// the dictionary says by which one its words are read; elsewhere they exclude each other.
     pub(super) fn two_distances(
         &mut self,

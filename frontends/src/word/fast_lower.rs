@@ -56,7 +56,7 @@ impl Lower {
         self.state.cycle == CycleState::None && self.is_settled_beside_cycle()
     }
 
-    /// Whether a block of nothing but words of a plane's axes is a hole of the cycle in force, and every fact is settled
+    /// Whether a block of nothing but words of a plane's axes is a hole of the active cycle, and every fact is settled
     /// that it depends on: then it says no more than the hole, and leaves the state as it is. Gives the plane.
     fn plane_of_holes(&self) -> Option<Plane> {
         let (state, rules) = (&self.state, &self.settings.dialect.cycles);
@@ -75,7 +75,7 @@ impl Lower {
             && !rules.level_lost
             && self.depth_letter(row, active.plane).is_some()
             && self.option_is_told(CYCLE_APPROACH);
-        // Where a cycle's planes are measured anew with each block, the first one of another mode calls it up again.
+        // Where a cycle's planes are measured again with each block, the first one of another mode activates it again.
         let measured =
             !rules.measured_anew || (active.retract.distance, active.depth.distance) == (absolute, absolute);
         // The first block of a loop says where it begins.
@@ -148,7 +148,7 @@ impl Lower {
         Some(end)
     }
 
-    /// The other straight motion is in force from here on, and nothing else has changed.
+    /// The other straight motion is active from here on, and nothing else has changed.
     fn switch_motion(&mut self, at_feed: bool) {
         self.set_motion(if at_feed { Motion::Feed } else { Motion::Traverse });
         let codes = self.usual.straight;

@@ -1,9 +1,9 @@
 //! Lowering of what fills a slot of the coordinate chain: shifts, coordinates of the present point,
 //! rotation, factors and mirror.
 //!
-//! Refused by name: their words under incremental coordinates, a first move in a new rotation that does
+//! Refused: their words under incremental coordinates, a first move in a new rotation that does
 //! not name both axes of its plane absolutely (which controls do not take alike), and another zero while
-//! a rotation, factors or a mirror are in force where the dictionary says that a control forbids it.
+//! a rotation, factors or a mirror are active where the dictionary says that a control forbids it.
 
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
@@ -102,7 +102,7 @@ impl Lower {
     }
 
     /// Whether nothing else in the block takes the words of a code: M codes may stand beside it, and a motion
-    /// where that is said. The first other one is refused.
+    /// where that is stated. The first other one is refused.
     pub(super) fn stands_beside(
         &mut self,
         code: &Code,
@@ -125,7 +125,7 @@ impl Lower {
         self.fault(Fault::not_supported(code.row.code.as_str(), what), code.span, out);
     }
 
-    /// Whether factors are in force, or a mirror of the drilling axis.
+    /// Whether factors are active, or a mirror of the drilling axis.
     pub(super) fn drills_scaled(&self) -> bool {
         let normal = self.state.modes.plane.value().unwrap_or(Plane::Xy).axes().2;
         self.state.turned & (SCALE | MIRROR << normal as u8) != 0

@@ -41,7 +41,7 @@ fn may_be_block(line: &[u8], numbers: [u8; 2]) -> bool {
 
 impl Reader {
     /// Bytes before the opening mark that the control skips: lines none of which is a block, a comment or the head of
-    /// a program, before a mark with a program behind it. What may be a program without its mark stays.
+    /// a program, before a mark with a program after it. What may be a program without its mark stays.
     pub(super) fn leader(&mut self, text: &[u8], out: &mut Batch) -> usize {
         let mark = self.frame.mark.as_bytes();
         let begin = if text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
@@ -138,7 +138,7 @@ impl Reader {
         }
         let begins_again = self.lower.main_ending.returns.or(self.lower.main_ending.begins_again).is_some();
         self.lower.goes_on_behind_return(out);
-        // The usual last block behind a program that begins again.
+        // The usual last block after a program that begins again.
         if !(begins_again && self.is_end()) {
             self.text_after_end(self.block.span, out);
         }
@@ -349,13 +349,13 @@ impl Reader {
     }
 
     /// The letter O where a zero is meant: as the number of a letter that has none (`GOX-15.`,
-    /// `GZO`), or without a number behind another word's digits (`X1O`).
+    /// `GZO`), or without a number after another word's digits (`X1O`).
     pub(super) fn check_letters(&mut self, src: Source) {
         let block = &mut self.block;
         let spelt = |from: &Word, to: &Word| from.span.end == to.span.start && to.value == Value::None;
         for (at, pair) in block.words.windows(2).enumerate() {
             let (word, next) = (&pair[0], &pair[1]);
-            // Further letters behind it spell a word of a language: `COVER`.
+            // Further letters after it spell a word of a language: `COVER`.
             if block.words.get(at + 2).is_some_and(|behind| spelt(next, behind)) {
                 continue;
             }

@@ -73,7 +73,7 @@ impl Lower {
             }
             self.feed_word(motion, words, src, out);
         }
-        // A plane belongs to the cycle in force: that ends first, so that either can stand in a block of its own.
+        // A plane belongs to the active cycle: that ends first, so that either can stand in a block of its own.
         let plane = |c: &Code| matches!(c.meaning, Meaning::SelectPlane(_));
         if matches!(self.state.cycle, CycleState::Active(_))
             && settings.iter().any(plane)
@@ -139,7 +139,7 @@ impl Lower {
         }
         self.now.skip = if block.tail.is_some() { None } else { level };
         self.corrector(words, src, out);
-        // The length is in force by now whose radius may be meant.
+        // The length is active by now whose radius may be meant.
         self.compensation(codes, words, src, out);
         let others = codes.iter().any(|code| takes_axes(code.meaning));
         let moves = motion.iter().any(|code| {
@@ -170,7 +170,7 @@ impl Lower {
             Meaning::SelectPlane(plane) => self.state.modes.plane = Know::Said(plane),
             Meaning::SetDistanceMode(distance) => self.state.modes.distance = Know::Said(distance),
             Meaning::SetFeedMode(mode) => {
-                // A feed that was said before does not count any more.
+                // A feed that was stated before does not count any more.
                 if self.state.modes.feed_mode.value().is_some_and(|before| before != mode) {
                     self.state.modes.feed = Know::Unsaid;
                 }
@@ -232,7 +232,7 @@ impl Lower {
         }
         if let (Meaning::SelectPlane(plane), CycleState::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
-            // Of a text that was emitted, the plane at the start is what was taken for granted.
+            // Of a text that was emitted, the plane at the start is what was assumed.
             && (self.assume || active.plane.known().is_some())
         {
             let what = MoveUnsupported::PlaneInCycle.into();
@@ -350,7 +350,7 @@ impl Lower {
         }
     }
 
-    /// Between the code for rigid tapping and its cycle no axis moves and no speed is said: a control alarms.
+    /// Between the code for rigid tapping and its cycle no axis moves and no speed is stated: a control alarms.
     fn nothing_before_the_tap(&mut self, codes: &[Code], block: Span, words: &Words, out: &mut Batch) {
         let waits = self.state.rigid.is_some() && self.state.cycle == CycleState::None;
         let settled =
@@ -491,7 +491,7 @@ impl Lower {
         self.push(code.span, op, out);
     }
 
-    /// A word that takes up a length entry by itself.
+    /// A word that applies a length entry by itself.
     fn corrector(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         let Some(word) = words.take(self.roles.corrector) else {
             return;
@@ -526,7 +526,7 @@ impl Lower {
         }
     }
 
-    /// Takes up a length by its entry, with the next Z.
+    /// Applies a length by its entry, with the next Z.
     pub(super) fn use_entry(&mut self, entry: Expr, span: Span, words: &Words, out: &mut Batch) {
         self.state.length_open(true);
         let with_z = words.get(b'Z').is_some();

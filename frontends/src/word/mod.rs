@@ -1,11 +1,11 @@
-//! The reader of the word-address family: all dialects of letters and numbers, told apart by their
+//! The reader of the word-address family: all dialects of letters and numbers, distinguished by their
 //! dictionaries alone.
 //!
 //! A plain move goes from the line straight to its statement (`common::fast_lower`), and so do the other usual blocks
 //! of one move (`common::fast_block`). Any other line goes to the
 //! recogniser of plain blocks (`common::fast_parse`), and to the lexer (`text::token`) and the grammar
 //! (`text/block.lalrpop`) if it is not one. Its words are then lowered to statements (`lower` and its
-//! neighbours) with what the program has said so far (`word_state`).
+//! neighbours) with what the program has stated so far (`word_state`).
 //!
 //! Reading never fails: a block with a fault gives diagnostics and no statements, and reading goes
 //! on at the next one. What a dictionary does not have is refused, never skipped.

@@ -67,7 +67,7 @@ impl Lower {
         }
     }
 
-    /// That the program began without a shift of the origin stays so where the text has not said one before; in a
+    /// That the program began without a G92 shift stays so where the text has not said one before; in a
     /// subprogram, where its callers have not.
     fn rely_on_no_shift(&mut self, at: Span, out: &mut Batch) {
         let (modes, mut by) = self.asker(at, out);
@@ -76,7 +76,7 @@ impl Lower {
         }
     }
 
-    /// A block that control may come to from elsewhere: no mode is known there.
+    /// A jump target: no mode is known there.
     pub(super) fn lose(&mut self, at: Span, out: &mut Batch) {
         self.rely_on_no_shift(at, out);
         self.lose_state(out);
@@ -93,7 +93,7 @@ impl Lower {
     /// What bare axis words do: `None` if that is only known when the program runs.
     ///
     /// # Errors
-    /// The program has not said it, and nothing may be taken for granted.
+    /// The program has not said it, and nothing may be assumed.
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
         if self.state.no_motion {
             out.report(Fault::NoMotionMode, at);

@@ -26,7 +26,7 @@ fn centre_open() -> Fault {
     Fault::NotSupported { code: "I J K".into(), what }
 }
 
-/// Digits behind the point that are kept of a length which may be in inches: a millionth of a micrometre is finer than
+/// Digits after the point that are kept of a length which may be in inches: a millionth of a micrometre is finer than
 /// any control computes.
 const FINEST: u8 = 8;
 
@@ -39,7 +39,7 @@ fn spelled(num: Num) -> String {
 }
 
 impl Lower {
-    /// Whether a point behind a whole number of this word is read; told, the first time.
+    /// Whether a point after a whole number of this word is read; told, the first time.
     fn point_read(&mut self, word: &Word, src: Source, out: &mut Batch) -> bool {
         let Value::Number(Digits { mantissa, point: true, .. }) = word.value else { return false };
         let place = usize::from(word.letter.wrapping_sub(b'A'));
@@ -163,7 +163,7 @@ impl Lower {
         match self.state.centre {
             Know::Said(from) | Know::Taken(from) => Some(from),
             Know::Unsaid => Some(self.centre_at_start(row.value.into(), at, out)),
-            // Open here, but if the whole text says no other, it is what was said on every way to here, or else that at
+            // Open here, but if the whole text says no other, it is what was stated on every path to here, or else that at
             // power-on.
             Know::Lost | Know::Open | Know::Callers => {
                 let from = match self.state.centre_before {
@@ -186,7 +186,7 @@ impl Lower {
         }
     }
 
-    /// The same where it is settled, and nothing is to be told of it.
+    /// The same where it is settled, and nothing is to be reported of it.
     pub(super) fn settled_centre(&self) -> Option<CentreFrom> {
         let dialect = self.settings.dialect;
         let Some(row) = &dialect.power_on.centre else {
@@ -215,7 +215,7 @@ impl Lower {
     /// The program says from where the words of a centre are measured.
     pub(super) fn set_centre_mode(&mut self, from: CentreFrom, out: &mut Batch) {
         (self.state.centre, self.state.centre_before) = (Know::Said(from), Some(from));
-        // In no loop and no decision of a subprogram, every path comes by it.
+        // In no loop and no branch of a subprogram, every path comes by it.
         let surely = self.in_o_sub() && self.o.open.len() == 1 && self.now.skip.is_none();
         let seen = &mut self.centre_seen;
         let other = seen.own.take_if(|own| own.from != from);

@@ -74,7 +74,7 @@ impl Reader {
         self.lower.foresee_jumps(lines);
     }
 
-    /// What the text never says is taken for granted from here on.
+    /// What the text never says is assumed from here on.
     pub(crate) fn assume(&mut self) {
         self.lower.assume = true;
         self.lower.refresh();
@@ -313,7 +313,7 @@ impl Reader {
         (found || named).then_some((start, line.trim_ascii_end().len()))
     }
 
-    /// Whether a block behind the end can be reached all the same, since it has a number that jumps may name.
+    /// Whether a block after the end can be reached all the same, since it has a number that jumps may name.
     fn reached_again(&mut self) -> bool {
         let numbered = self.block.words.first().is_some_and(|word| word.letter == self.signs.number);
         let again = self.lower.computes.jumps && numbered && self.signs.number != 0;
@@ -323,7 +323,7 @@ impl Reader {
         again
     }
 
-    /// A block that can be skipped, where the user states how the switch stands.
+    /// A block with block skip, where the user states how the switch stands.
     #[cold]
     fn state_switch(&mut self, out: &mut Batch) {
         let on = match self.lower.settings.get(BLOCK_SKIP) {

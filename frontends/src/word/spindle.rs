@@ -44,7 +44,7 @@ impl Lower {
         self.push(code.span, Op::SetSpindleMode(SpindleMode::Surface), out);
     }
 
-    /// Refuses a surface speed in a block that changes its unit, where that comes behind feed and speed.
+    /// Refuses a surface speed in a block that changes its unit, where that comes after feed and speed.
     pub(super) fn units_before_speed(&mut self, settings: &[Code], words: &Words, out: &mut Batch) {
         let surface = Meaning::SetSpindleMode(SpindleMode::Surface);
         let met = || self.limits.is_some() || settings.iter().any(|code| code.meaning == surface);
@@ -87,7 +87,7 @@ impl Lower {
         }
     }
 
-    /// The words of a stop of the spindle: the angle, if one is said.
+    /// The words of a stop of the spindle: the angle, if one is stated.
     pub(super) fn orient_words(
         &mut self,
         code: &Code,

@@ -1,4 +1,4 @@
-//! What a text has said so far, wherever: facts that hold for all of it, and what has been reported.
+//! What a text has stated so far, wherever: facts that hold for all of it, and what has been reported.
 //!
 //! Not here: what holds at the block that is read (`word_state`).
 
@@ -23,7 +23,7 @@ pub(super) struct CentreSeen {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OwnCentre {
     pub(super) from: CentreFrom,
-    /// The first arc in a loop or a decision that relies on the subprogram's saying no other.
+    /// The first arc in a loop or a branch that relies on the subprogram's saying no other.
     pub(super) relied: Option<Span>,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct CyclesMet {
     pub(super) any: bool,
     /// Whether one was active where the program began to be kept whole.
     pub(super) entered: bool,
-    /// Codes behind a call, a jump or a label: decided when the text has been read.
+    /// Codes after a call, a jump or a label: decided when the text has been read.
     pub(super) doubts: Vec<(Fault, Span)>,
 }
 
@@ -55,7 +55,7 @@ pub(super) struct MotionWithoutMove {
     pub(super) code: Option<(Span, Motion)>,
     /// Of one that was lost: where it stands.
     pub(super) lost: Option<Span>,
-    /// Axis words that do what is in force.
+    /// Axis words that do what is active.
     pub(super) bare: Option<Span>,
     pub(super) reported: bool,
 }
@@ -85,7 +85,7 @@ pub(super) struct ToolsNamed {
     pub(super) at_start: AtStart,
 }
 
-/// What the text takes of the codes in force at its start, and what it says of them itself.
+/// What the text takes of the active codes at its start, and what it says of them itself.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct AtStart {
     /// The T and the H code that were stated and used.
@@ -110,25 +110,25 @@ impl AtStart {
     }
 }
 
-/// Dwells of cycles in the whole text, where they stay in force for other cycles.
+/// Dwells of cycles in the whole text, where they stay active for other cycles.
 #[derive(Debug, Default)]
 pub(super) struct Dwells {
-    /// Whether any was said so far.
+    /// Whether any was stated so far.
     pub(super) said: bool,
-    /// Where it was first relied on that none was said, in blocks that others call or come back to.
+    /// Where it was first relied on that none was stated, in blocks that others call or come back to.
     pub(super) relied: Option<Span>,
-    /// Whether control went elsewhere so far while a cycle with a dwell was in force.
+    /// Whether control went elsewhere so far while a cycle with a dwell was active.
     pub(super) carried: bool,
-    /// Where a cycle was first called up without one while it is not known which is in force before it.
+    /// Where a cycle was first activated without one while it is not known which is active before it.
     pub(super) over_unknown: Option<(Span, &'static str)>,
 }
 
 /// How the main program ends.
 #[derive(Debug, Default)]
 pub(super) struct MainEnding {
-    /// Where it first goes back to another.
+    /// Where it first returns to another.
     pub(super) returns: Option<Span>,
-    /// Where it first begins anew.
+    /// Where it first begins again.
     pub(super) begins_again: Option<Span>,
     /// Whether it ends by itself.
     pub(super) ends: bool,
@@ -164,6 +164,6 @@ pub(super) struct Reported {
     pub(super) no_length: bool,
     /// Options of the dictionary, by place.
     pub(super) options: u32,
-    /// What is taken for granted of the control's own values.
+    /// What is assumed of the control's own values.
     pub(super) values: Vec<&'static str>,
 }

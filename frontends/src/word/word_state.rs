@@ -19,20 +19,20 @@ use crate::common::known::Know;
 use crate::common::modal_state::ModalState;
 use crate::initial_modes::Unsaid;
 
-/// Whose the numbers are that a control keeps of a shift of the origin, to take it up again.
+/// Whose the numbers are that a control keeps of a G92 shift, to restore it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum KeptShift {
     /// Some may be an earlier program's.
     #[default]
     Unknown,
-    /// This program's, and the shift in force has them.
+    /// This program's, and the active shift has them.
     Active,
     /// This program's, and the shift may be suspended.
     Suspended,
 }
 
 impl KeptShift {
-    /// After the shift has been taken up again, or suspended.
+    /// After the shift has been restored, or suspended.
     pub(super) fn used(self, on: bool) -> KeptShift {
         match (self, on) {
             (KeptShift::Unknown, _) => KeptShift::Unknown,
@@ -60,7 +60,7 @@ impl KeptShift {
     }
 }
 
-/// A cycle in force, with the words that stay in force with it.
+/// An active cycle, with the words that stay active with it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ActiveCycle {
     /// Index of its row among the dictionary's cycles.
@@ -75,12 +75,12 @@ pub(super) struct ActiveCycle {
     pub(super) shrinking: Option<[Num; 3]>,
     /// Feed of the cycle's own block.
     pub(super) feed: Option<Num>,
-    /// Level of return and retract plane with which it was called up last, on a control whose initial level is where the
-    /// tool stands before each block.
+    /// Return level and retract plane with which it was activated last, on a control whose initial level is where the tool is
+    /// before each block.
     pub(super) called: Option<(Fact<ReturnLevel>, Coord)>,
 }
 
-/// Whether a cycle is in force.
+/// Whether a cycle is active.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum CycleState {
     #[default]
@@ -95,25 +95,25 @@ pub(super) enum CycleState {
 pub(super) struct WordState {
     pub(super) modes: ModalState<Motion>,
     pub(super) return_level: Know<ReturnLevel>,
-    /// A return level was said while it was not known whether a cycle is in force.
+    /// A return level was stated while it was not known whether a cycle is active.
     pub(super) level_changed: bool,
     /// The entry of the table of lengths that was named last.
     pub(super) length_entry: Know<u32>,
     pub(super) shift_kept: KeptShift,
-    /// A cycle has ended without a motion code: whether the motion before it is in force again is
+    /// A cycle has ended without a motion code: whether the motion before it is active again is
     /// the control's way.
     pub(super) after_cycle: bool,
-    /// No motion is in force: the end of a cycle has taken it away.
+    /// No motion is active: the end of a cycle has taken it away.
     pub(super) no_motion: bool,
     /// From where the words of a centre are measured.
     pub(super) centre: Know<CentreFrom>,
-    /// What the program has said of that on every way to here, whatever other programs and bodies of structures that
+    /// What the program has said of that on every path to here, whatever other programs and bodies of structures that
     /// it has come through may have said since.
     pub(super) centre_before: Option<CentreFrom>,
     pub(super) cycle: CycleState,
     /// The code by which the next tapping cycle is a rigid one.
     pub(super) rigid: Option<Span>,
-    /// Rotation, factors or a mirror that the program has in force, a bit each.
+    /// Rotation, factors or a mirror that the program has active, a bit each.
     pub(super) turned: u8,
     /// What the words of the plane's axes are.
     pub(super) words: AxisWords,
@@ -121,11 +121,11 @@ pub(super) struct WordState {
     pub(super) follows_polar: bool,
     /// Axes that the first move in a new rotation must name absolutely, a bit each.
     pub(super) unplaced: u8,
-    /// Another length is in force, and no absolute Z was named since.
+    /// Another length is active, and no absolute Z was named since.
     pub(super) level_open: bool,
-    /// A feed that was said in a cycle's block and that no hole has used yet.
+    /// A feed that was stated in a cycle's block and that no hole has used yet.
     pub(super) cycle_feed: Option<Num>,
-    /// The dwell that some cycle has said, where it stays in force for others.
+    /// The dwell that some cycle has said, where it stays active for others.
     pub(super) dwell_left: Know<Num>,
     /// The entry of the table of radii that was named last.
     pub(super) radius_entry: Know<Expr>,
@@ -135,7 +135,7 @@ pub(super) struct WordState {
     pub(super) thread: Option<&'static CodeRow>,
     /// The lead that the feed word has said for it.
     pub(super) lead: Option<Num>,
-    /// Whether points are those of the tool's tip.
+    /// Whether points are those of the tool tip.
     pub(super) tip: Know<bool>,
 }
 
@@ -161,7 +161,7 @@ impl WordState {
         WordState { modes: ModalState::called(), return_level: Know::Callers, ..WordState::lost() }
     }
 
-    /// Which modes the text has not said so far.
+    /// Which modes the text has not stated so far.
     pub(super) fn unsaid(&self) -> Unsaid {
         self.modes.unsaid().with(ModeName::ReturnLevel, self.return_level)
     }
@@ -172,7 +172,7 @@ impl WordState {
         unsaid.open(ModeName::ReturnLevel, &mut self.return_level, in_sub);
     }
 
-    /// Where control may come from elsewhere. Whether a shift of the origin is active is asked for before.
+    /// Where control may come from elsewhere. Whether a G92 shift is active is asked for before.
     pub(super) fn at_merge(&self) -> WordState {
         WordState {
             modes: ModalState { no_shift: Know::Lost, ..self.modes.at_merge() },
@@ -183,7 +183,7 @@ impl WordState {
         }
     }
 
-    /// A length is taken up with the next Z.
+    /// A length takes effect with the next Z.
     pub(super) fn length_open(&mut self, active: bool) {
         (self.modes.length, self.level_open) = (Know::Said(active), true);
     }

@@ -1,4 +1,4 @@
-//! Blocks that are none: what is said, and where.
+//! Blocks that are none: what is stated, and where.
 
 use ncc_ir::diag::Fault;
 

@@ -134,7 +134,7 @@ fn a_motion_code_ends_a_cycle() {
         after_head("fanuc", "G81 X1. Z-5. R2. F50.\nG0 Z9.\nX4.\n"),
         [DRILL, "& HOLE! X1.", "EndCycle", "& TRAVERSE! Z9.", "TRAVERSE X4."]
     );
-    // Before a cycle's code it says what is in force afterwards; behind it the block is refused.
+    // Before a cycle's code it says what is active afterwards; after it the block is refused.
     assert_eq!(after_head("fanuc", "G0 G81 X1. Z-5. R2. F50.\n"), [DRILL, "& HOLE! X1."]);
     assert_eq!(
         faults("fanuc", "G81 G0 X1. Z-5. R2. F50.\n"),

@@ -1,4 +1,4 @@
-//! What is said, taken for granted, and lost.
+//! What is stated, assumed, and lost.
 
 use super::*;
 use ncc_ir::canon::{Distance, Modes, Units};

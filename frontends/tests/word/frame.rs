@@ -50,7 +50,7 @@ fn names_and_titles() {
 fn frame_marks() {
     assert_eq!(stmts(&read("fanuc", "% LEADER\nM30\n%\n")), ["ProgramEnd"]);
     assert_eq!(errors("fanuc", "%\nM30\n%\n\nREST 1\nMORE\n"), ["TextAfterEnd at 'REST 1'"]);
-    // A mark behind the end needs none before the program; one in the middle of it does.
+    // A mark after the end needs none before the program; one in the middle of it does.
     assert_eq!(errors("fanuc", "M30\n%\n"), Vec::<String>::new());
     assert_eq!(errors("haas", "O1\nM30\n%\n"), Vec::<String>::new());
     assert_eq!(errors("linuxcnc", "M30\n%\nG0 X1\n"), ["TextAfterEnd at 'G0 X1'"]);
@@ -76,7 +76,7 @@ fn text_before_the_first_mark_is_a_leader() {
         for text in ["G0 X1.\n%\nO1\nM30\n%\n", "NOTE\nX 1.\n%\nO1\nM30\n%\n"] {
             assert!(errors(id, text).iter().any(|e| e.starts_with("OpeningMarkMissing")), "{text:?}");
         }
-        // A mark behind the end of the program is no first one, unless blocks follow it: a control begins there.
+        // A mark after the end of the program is no first one, unless blocks follow it: a control begins there.
         assert_eq!(errors(id, "O1\nM30\n%\nNOTE\n"), ["TextAfterEnd at 'NOTE'"]);
         let between = ["OpeningMarkMissing { mark: '%', follows: true } at '%'"];
         assert_eq!(errors(id, "O1\nM30\n%\nNOTE\nO2\nG0 X1.\nM30\n%\n")[1..], between);
@@ -109,9 +109,9 @@ fn subprograms_stand_after_the_main_program() {
     assert_eq!(stmts(&out), ["CALL 12 x1", "ProgramEnd", "(SUBS)"]);
     // The first call's name is the subprogram's.
     assert_eq!(out.procedures[0].body.len(), 2);
-    // A subprogram that stands alone.
+    // A standalone subprogram.
     assert!(errors("fanuc", "O1\nM99\n").is_empty());
-    // One that begins again: the program's end is the usual last block behind it, and never executed.
+    // One that begins again: the program's end is the usual last block after it, and never executed.
     assert!(errors("fanuc", "O1\nM99\nM30\n").is_empty());
     assert_eq!(stmts(&read("fanuc", "O1\nM99\nM30\n")), ["BeginAgain"]);
     assert_eq!(stmts(&read("fanuc", "O1\n/M99\nM30\n")), ["/1 BeginAgain", "ProgramEnd"]);

@@ -217,7 +217,7 @@ proptest! {
             before.append(&mut short.stmts);
             short.stmts = before;
             first.finish(&mut short);
-            // The other one is fed line by line, and looks at every block. What O words are told of where a text calls
+            // The other one is fed line by line, and looks at every block. What O words report where a text calls
             // subprograms depends on how far it is looked ahead.
             let pieces: Vec<&str> = match id {
                 "linuxcnc" => vec![&text],

@@ -53,7 +53,7 @@ fn after_head(id: &str, piece: &str) -> Vec<String> {
     stmts(&out).split_off(skip)
 }
 
-/// Says every mode, a tool, a feed, and where the tool stands.
+/// Says every mode, a tool, a feed, and where the tool is.
 fn head(id: &str) -> &'static str {
     match id {
         "mach9" => "G99\nG90\nG71\nG17\nT1M6\nO1\nG1X0.Y0.Z5.F100\nG0X0.\n",

@@ -83,7 +83,7 @@ fn motion_is_modal_and_says_whether_it_is_said() {
         after_head("fanuc", "G1 X1.\nX2.\nG0 Z3.\nZ4.\n"),
         ["FEED! X1.", "FEED X2.", "TRAVERSE! Z3.", "TRAVERSE Z4."]
     );
-    // Without axis words a motion code only says what is in force.
+    // Without axis words a motion code only says what is active.
     assert_eq!(after_head("fanuc", "N5 G1\nX2.\n"), ["N5 Blank", "FEED X2."]);
 }
 
@@ -140,7 +140,7 @@ fn arcs_that_are_none() {
     assert_eq!(faults("mach9", "G2X1.R5.\n"), ["ArcWithoutCentre at 'G2X1.R5.'"]);
 }
 
-/// LinuxCNC stops at such a block; elsewhere the code is in force for the next one.
+/// LinuxCNC stops at such a block; elsewhere the code is active for the next one.
 #[test]
 fn a_code_of_motion_that_no_block_can_have_alone() {
     let lacks = |code: &str| [format!("WordMissing {{ code: '{code}', word: 'I, J, K or R' }} at '{code}'")];
@@ -166,7 +166,7 @@ fn dwell_in_seconds_or_milliseconds() {
 #[test]
 fn length_offsets() {
     assert_eq!(after_head("fanuc", "G43 H2 Z5.\nG49\n"), ["LENGTH 2", "& TRAVERSE Z5.", "LENGTH 0"]);
-    // H stays in force, also behind G49; where it was never said, or may be another one, it is asked for.
+    // H stays active, also after G49; where it was never said, or may be another one, it is asked for.
     assert_eq!(after_head("fanuc", "G43 H2 Z5.\nG49\nG43 Z6.\n")[3..], ["LENGTH 2", "& TRAVERSE Z6."]);
     let text = "G21 G90\nG43 Z5.\nM30\n";
     let missing = "WordMissing { code: 'G43', word: 'H' } at 'G43'";

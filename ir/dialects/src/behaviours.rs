@@ -12,7 +12,7 @@ pub struct BehaviourRow {
     /// The value: `stops`. Of an open one, the usual value, which is executed first.
     pub value: String,
     /// A parameter, a machine datum or the builder decides it. Then it is an option too, of the same name with `_`,
-    /// whose value `unknown` leaves it open; and every program that comes to it is executed with the other values.
+    /// whose value `unknown` leaves it open; and every program that reaches it is executed with the other values.
     #[serde(default)]
     pub open: bool,
     /// Of an open one: the values that this control can have besides the usual one. Without it all values that are not rare.
@@ -23,7 +23,7 @@ pub struct BehaviourRow {
     pub codes: Vec<String>,
     /// How sure the source is.
     pub sure: Sureness,
-    /// Who says so; of an open one, what decides it.
+    /// The manual and its page, or another source; of an open one, what decides it.
     pub source: String,
 }
 

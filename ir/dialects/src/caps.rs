@@ -1,4 +1,4 @@
-//! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
+//! What can be stated in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
 mod computes;
 mod holes;
@@ -186,7 +186,7 @@ fn frames(dialect: &Dialect) -> FrameCaps {
     }
 }
 
-/// Places of the machine.
+/// Machine coordinates.
 fn machine(dialect: &Dialect) -> MachineCaps {
     let everything = dialect.can.everything;
     let says = |meaning| dialect.code_for(meaning).is_some();
@@ -348,7 +348,7 @@ fn flow(dialect: &Dialect) -> FlowCaps {
     }
 }
 
-/// What the codes of a dialect that its control refuses under compensation come to.
+/// Capabilities from the codes of a dialect that its control refuses under compensation.
 fn refused_compensated(dialect: &Dialect) -> Refused {
     let mut refused = Refused::default();
     for row in &dialect.code {

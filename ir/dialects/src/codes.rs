@@ -30,7 +30,7 @@ pub struct CodeRow {
     /// the one that the row means. Its letter is the first of `words`.
     #[serde(default)]
     pub count: Option<u16>,
-    /// Of a function of the machine, whether it comes behind the move of its block; else a block with a move is
+    /// Of a function of the machine, whether it comes after the move of its block; else a block with a move is
     /// refused.
     #[serde(default)]
     pub after_move: bool,
@@ -115,7 +115,7 @@ pub struct CodeRow {
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -147,7 +147,7 @@ pub struct OrientWords {
     /// The option that says which of these letters it is on the machine at hand.
     #[serde(default)]
     pub option: Option<String>,
-    /// Letter of the time to wait for it, in seconds. Where there is one, it and the angle must be said.
+    /// Letter of the time to wait for it, in seconds. Where there is one, it and the angle must be stated.
     #[serde(default)]
     pub wait: Option<char>,
     /// Letter of the sense in which the spindle turns to it: 0 is the shorter way, and any other is refused.

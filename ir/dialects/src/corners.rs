@@ -3,20 +3,20 @@
 use ncc_ir::canon::CornerShape;
 use serde::Deserialize;
 
-/// Rounded and chamfered corners. A word is a letter, after a comma if it is written behind one (`,R`), and
+/// Rounded and chamfered corners. A word is a letter, after a comma if it is written after one (`,R`), and
 /// after a minus if its value is written as a negative number (`-Q`).
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CornerRules {
     /// Of a rounding, by its radius; empty for none.
     pub round: String,
-    /// Of a chamfer, by how far it begins before the corner and ends behind it; empty for none.
+    /// Of a chamfer, by how far it begins before the corner and ends after it; empty for none.
     pub leg: String,
     /// Of a chamfer, by its own length; empty for none.
     pub length: String,
     /// Whether corners beside arcs can be written so.
     pub arcs: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -25,7 +25,7 @@ pub struct CornerRules {
 pub struct CornerWord {
     /// Its letter.
     pub letter: char,
-    /// Whether it stands behind a comma.
+    /// Whether it stands after a comma.
     pub comma: bool,
     /// Whether its value is written as a negative number.
     pub negative: bool,

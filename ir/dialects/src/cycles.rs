@@ -21,12 +21,12 @@ pub struct CycleRules {
     /// Whether they stay so only as long as it is the same code.
     pub retained_by_code: bool,
     /// Whether words that stay active are measured as the distance mode of each further block has it, not
-    /// as they were when they were said.
+    /// as they were when they were stated.
     pub measured_anew: bool,
-    /// Whether the initial level of a hole is where the tool stands before its block; else where it stood before the
+    /// Whether the initial level of a hole is where the tool is before its block; else where it stood before the
     /// first hole of the series.
     pub level_of_block: bool,
-    /// Whether every move that is no cycle's, and the code that ends a cycle, make the initial level the level of return
+    /// Whether every move that is no cycle's, and the code that ends a cycle, make the initial level the return level
     /// again.
     pub level_lost: bool,
     /// Whether a cycle works along the normal of any plane, with that axis's letter for the depth.
@@ -35,7 +35,7 @@ pub struct CycleRules {
     pub no_rotary: bool,
     /// Whether no motion is active after the code that ends a cycle: axis words alone are an error.
     pub ends_motion: bool,
-    /// Whether a cycle that a subprogram calls up ends with it: it cannot be left active to the caller.
+    /// Whether a cycle that a subprogram activates ends with it: it cannot be left active to the caller.
     pub ends_with_call: bool,
     /// Letter of the number of repetitions in a cycle's block: 0 stores the data and makes no hole.
     pub repeat: Option<char>,
@@ -43,14 +43,14 @@ pub struct CycleRules {
     pub repeat_once: bool,
     /// Whether the dwell that any cycle has said stays active for a later cycle that can go without one.
     pub dwell_left: bool,
-    /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
+    /// Value of the peck cycle's clearance parameter assumed, in mm, where an expansion
     /// needs one.
     pub peck_clearance: Option<f64>,
     /// The alarm with which the control ends a program of which a cycle's planes do not lie one above the other.
     pub planes_alarm: Option<u32>,
     /// Whether the rows are confirmed for incremental mode.
     pub incremental: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -87,7 +87,7 @@ pub struct CycleRow {
     /// of the least.
     #[serde(default)]
     pub shrinking: Option<[char; 3]>,
-    /// Whether the dwell must be said.
+    /// Whether the dwell must be stated.
     #[serde(default)]
     pub dwell_needed: bool,
     /// Of pecks, milliseconds that the control dwells by itself after each of them, at the bottom too.
@@ -119,7 +119,7 @@ pub struct CycleRow {
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 

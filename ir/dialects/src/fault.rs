@@ -80,7 +80,7 @@ pub enum DialectFault {
     },
     /// A dialect cannot be of another family than its base.
     OtherFamily,
-    /// A row without the field by which rows of its table are told apart.
+    /// A row without the field by which rows of its table are distinguished.
     NoKey {
         /// The table: `code`.
         table: String,
@@ -113,7 +113,7 @@ pub enum DialectFault {
         /// Its kind.
         kind: Box<str>,
     },
-    /// A row that no reader comes to.
+    /// A row that no reader reaches.
     Unreadable {
         /// Code, name or letter of the row.
         row: String,
@@ -129,7 +129,7 @@ pub enum DialectFault {
     },
 }
 
-/// Why no reader comes to a row.
+/// Why no reader reaches a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unreadable {
     /// A code is G or M with a number.

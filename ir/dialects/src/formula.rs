@@ -7,8 +7,8 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Function, Var};
 use serde::Deserialize;
 
-/// Words of the language in which a program computes (`[program] macro_b`), each by what it means; what has no
-/// word here is refused by name.
+/// Words of the language in which a program computes (`[program] macro_b`), each by its meaning; what is
+/// missing here is refused.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FormulaRules {
@@ -47,7 +47,7 @@ pub struct FormulaRules {
     pub behind: String,
     /// The word for the opposite of a condition.
     pub not: Option<String>,
-    /// What stands behind a condition in brackets to make its opposite, of a control whose conditions are numbers.
+    /// What stands after a condition in brackets to make its opposite, of a control whose conditions are numbers.
     pub not_behind: Option<String>,
     /// The operator of a remainder that is never negative.
     pub remainder: Option<String>,
@@ -55,7 +55,7 @@ pub struct FormulaRules {
     pub exists: Option<String>,
     /// How far apart two numbers are, as a decimal, that comparisons do not find equal; without, the least bit.
     pub equal_within: Option<String>,
-    /// To how many digits behind the point a number is looked at that must be whole: in words that count, and of a
+    /// To how many digits after the point a number is looked at that must be whole: in words that count, and of a
     /// variable whose number is computed.
     pub whole: Option<u8>,
     /// Between which signs a name stands.
@@ -66,10 +66,10 @@ pub struct FormulaRules {
     pub near: bool,
     /// Whether a word rounds what is computed for it to its increment.
     pub rounds: bool,
-    /// Whether blocks in loops and behind labels are written with every fact that is known there, since the words of
+    /// Whether blocks in loops and after labels are written with every fact that is known there, since the words of
     /// another language lead to them; else as they are, with what is active.
     pub restates: bool,
-    /// Whether a decision is about blocks of its own, and can have others where it does not hold; else about one jump
+    /// Whether a branch is about blocks of its own, and can have others where it does not hold; else about one jump
     /// or one assignment.
     pub blocks: bool,
     /// Numbers of variables, from and to, that live as long as a call.
@@ -78,7 +78,7 @@ pub struct FormulaRules {
     pub common: Vec<[u32; 2]>,
     /// Of those that are kept when it is.
     pub retentive: Vec<[u32; 2]>,
-    /// How deep loops can stand in one another, and decisions with them whose blocks are their own.
+    /// How deep loops can stand in one another, and branches with them whose blocks are their own.
     pub loops: u8,
     /// How deep calls with variables of their own can; 0 is not known.
     pub calls: u8,
@@ -88,7 +88,7 @@ pub struct FormulaRules {
     pub alarms: Option<[u32; 2]>,
     /// How many characters the text of an alarm, or of a stop with a message, can have.
     pub alarm_text: usize,
-    /// How many digits a value that is written to a device can have, before the point and behind it.
+    /// How many digits a value that is written to a device can have, before the point and after it.
     pub output_digits: u8,
     /// Whether a device must be opened before anything is written to it.
     pub output_opened: bool,
@@ -97,15 +97,15 @@ pub struct FormulaRules {
     /// Whether a call that is made several times begins each of them with the same arguments and no other
     /// variables; else a program with variables of its own is called once.
     pub arguments_again: bool,
-    /// How arguments come to the variables of what is called.
+    /// How arguments are passed to the variables of the called program.
     pub parameters: Handing,
     /// Variables with names.
     pub named: Option<VariableNames>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
-/// How arguments come to the variables of what is called.
+/// How arguments are passed to the variables of the called program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Handing {
@@ -118,7 +118,7 @@ pub enum Handing {
     Names,
 }
 
-/// Variables with names. Those of a call have them; those that all programs see, where `common` says so.
+/// Variables with names. Local variables have them; common variables only with `common`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct VariableNames {
@@ -134,7 +134,7 @@ pub struct VariableNames {
     pub longest: usize,
     /// Words beyond those of the dictionary that no variable can be called.
     pub reserved: Vec<String>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -152,7 +152,7 @@ pub enum Statement {
     Numbered,
     /// A loop without an end.
     Endless,
-    /// A loop that ends where a condition holds behind it.
+    /// A loop that ends where a condition holds after it.
     Until,
     /// A loop over a variable that counts.
     Count,
@@ -160,7 +160,7 @@ pub enum Statement {
     Times,
     /// The way out of the loops around it.
     Leave,
-    /// The way to the next turn of a loop.
+    /// The way to the next iteration of a loop.
     NextTurn,
     /// A message with what is computed in it.
     Values,
@@ -170,13 +170,13 @@ pub enum Statement {
     Output,
     /// A stop with a message.
     Stop,
-    /// A call of which the number, or how often, is computed.
+    /// A call of which the number, or the repeat count, is computed.
     CallOf,
     /// A code of which the number is a variable's, which has it from the active codes.
     CodeOf,
-    /// Places of tables that are read by a computed number.
+    /// Table entries that are read by a computed number.
     EntriesRead,
-    /// Places of tables that are set by a computed number.
+    /// Table entries that are set by a computed number.
     EntriesSet,
     /// What is said of a subprogram as a whole.
     Attributes,

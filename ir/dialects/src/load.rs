@@ -1,7 +1,7 @@
 //! Reading dictionaries, and the ones that are built in.
 //!
 //! A dictionary may build on another (`base`), which is laid under it before any field is read
-//! (`merge`); what is wrong is told with its place, also if that lies in the base's text.
+//! (`merge`); what is wrong is reported with its place, also if that lies in the base's text.
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -52,7 +52,7 @@ fn prepared(at: usize) -> Result<Dialect, DialectError> {
     Ok(dialect)
 }
 
-/// The built-in dialects, in the order of `ncc dialects`; each is read when the iterator comes to it.
+/// The built-in dialects, in the order of `ncc dialects`; each is read when the iterator reaches it.
 pub fn builtins() -> impl Iterator<Item = &'static Dialect> {
     builtin_ids().filter_map(builtin)
 }
@@ -189,7 +189,7 @@ impl<'t> Texts<'t> {
                     let place = self.place(other.span());
                     Err(DialectFault::BaseNoText.at(place))
                 }
-                // A word about a base that there is not is told as any other.
+                // A word about a base that there is not is reported as any other.
                 None => self.lay(Spanned::new(over.span(), DeTable::new()), over),
             };
         };
@@ -247,7 +247,7 @@ impl<'t> Texts<'t> {
     }
 }
 
-/// Finds a dictionary's rows and capabilities anew after its rows have been changed.
+/// Finds a dictionary's rows and capabilities again after its rows have been changed.
 ///
 /// # Errors
 /// Rows contradict each other.
@@ -260,7 +260,7 @@ pub fn renew(dialect: &mut Dialect) -> Result<(), DialectError> {
     Ok(())
 }
 
-/// Where the rows of a tree stand: the value by which each is told from the others.
+/// Where the rows of a tree stand: the value by which each is distinguished from the others.
 fn places(tree: &DeTable<'_>) -> Places {
     let rows = |table: &str| {
         let field = merge::row_key(table).unwrap_or_default();

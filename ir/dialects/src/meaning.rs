@@ -17,7 +17,7 @@ pub enum Meaning {
     StraightTraverse,
     StraightFeed,
     ArcFeed(Turn),
-    /// A straight move in step with the spindle; the row's words are those of the lead.
+    /// A straight spindle-synchronised move; the row's words are those of the lead.
     SynchronisedFeed(Thread),
     Dwell,
     UseLengthUnits(Units),
@@ -29,11 +29,11 @@ pub enum Meaning {
     SetCentreMode(CentreFrom),
     SetOriginOffsets(u16),
     ClearFrame(FrameSlot),
-    /// Shift of the origin (`true`) or local shift by the block's axis words, each for its own axis.
+    /// G92 shift (`true`) or local shift by the block's axis words, each for its own axis.
     SetShift(bool),
     /// The present point gets the block's axis words as coordinates.
     SetPosition,
-    /// The shift of the origin is suspended (`false`), or taken up again as it was.
+    /// The G92 shift is suspended (`false`), or restored as it was.
     UseOriginShift(bool),
     /// Rotation in the plane about the block's axis words; the row's first word is the angle.
     SetRotation,
@@ -44,7 +44,7 @@ pub enum Meaning {
     SetMirror,
     /// The axes of the block's words are mirrored no more.
     ClearMirror,
-    /// Points are those of the tool's tip. As a code, with the length entry that a word names; what ends
+    /// Points are those of the tool tip. As a code, with the length entry that a word names; what ends
     /// the length ends it.
     UseToolCentrePoint(bool),
     /// A tilted plane: the axis words are its zero, three words of the row the turns about Z, the new X and
@@ -58,29 +58,29 @@ pub enum Meaning {
         /// Whether the move is rapid whatever motion is active.
         rapid: bool,
     },
-    /// A straight move at feed that ends where the probe says so. As a code of the group of motions it stays in
-    /// force, and bare axis words behind it are refused.
+    /// A straight move at feed that ends where the probe triggers. As a code of the group of motions it stays active,
+    /// and bare axis words after it are refused.
     StraightProbe(Probe),
-    /// To a point of the machine; [`ReferencePoint::Further`] 0 is the one that a word of the block names.
+    /// To a reference point; [`ReferencePoint::Further`] 0 is the one that a word of the block names.
     GoToReference {
         point: ReferencePoint,
         keeps_length: bool,
     },
-    /// A rapid straight move to the block's words that goes another way. One from one side stays active where a
-    /// parameter of the control says so: bare axis words behind it are refused.
+    /// A rapid move to the block's words that is not straight. One from one side stays active where a
+    /// parameter of the control says so: bare axis words after it are refused.
     Detour(Detour),
     /// Puts values into the table of the row of `[[data]]` that a word of the block names.
     SetData,
     /// Where the axes stand becomes the stored position of this number.
     StorePosition(u8),
-    /// The row's word is the number of the tool that is in the spindle.
+    /// The row's word is the number of the tool in the spindle.
     SetToolNumber,
     /// The block's axis words, or polar ones, say about which point polar words are.
     SetPole(PoleFrom),
     /// From here on, the words of the plane's axes are radius and angle about program zero (`true`), or
     /// coordinates again. No statement: points carry it.
     PolarWords(bool),
-    /// By the radius of the entry that a word names, or the active one of the dialect.
+    /// With the radius of the entry that a word names, or the active one of the dialect.
     StartCutterRadiusCompensation(Side),
     /// The same by the diameter of the tool, which a word of the block states.
     StartCompensationByDiameter(Side),
@@ -98,7 +98,7 @@ pub enum Meaning {
     LimitSpindleSpeed,
     /// Stops the spindle at the control's own angle, or at that of a word of the block.
     OrientSpindle,
-    /// Takes up the length entry that a word of the block names.
+    /// Applies the length entry that a word of the block names.
     UseToolLengthOffset,
     /// The block's Z word is the active length, or is added to it; so is the length of the entry that a word
     /// names.
@@ -118,10 +118,10 @@ pub enum Meaning {
     StartSpindleClockwise,
     StartSpindleCounterclockwise,
     StopSpindleTurning,
-    /// The tapping cycle called up next is a rigid one.
+    /// The tapping cycle activated next is a rigid one.
     RigidTapping,
     ChangeTool,
-    /// A function of the machine that no dialect has a word for, by its name.
+    /// A function of the machine that no dialect supports, by its name.
     MachineFunction(&'static str),
     FloodOn,
     MistOn,
@@ -129,11 +129,11 @@ pub enum Meaning {
     ProgramStop,
     OptionalProgramStop,
     ProgramEnd,
-    /// The main program begins anew, for ever.
+    /// The main program begins again, for ever.
     BeginAgain,
     Call,
     CallMacro,
-    /// Such a call behind every block that moves an axis, until they end.
+    /// Such a call after every block that moves an axis, until they end.
     CallMacroAtMoves,
     /// Such a call in every block, whose words are its arguments, until they end.
     CallMacroAtBlocks,
@@ -141,7 +141,7 @@ pub enum Meaning {
     Return,
 }
 
-/// Moves in step with the spindle.
+/// Spindle-synchronised moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Thread {
     /// As the spindle turns.

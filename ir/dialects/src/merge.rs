@@ -2,7 +2,7 @@
 //!
 //! - A plain value, or a list of plain values, replaces the base's.
 //! - A table is merged field by field, to any depth.
-//! - A list of rows is merged row by row. Rows are told apart by their key: `code` in `[[code]]`,
+//! - A list of rows is merged row by row. Rows are distinguished by their key: `code` in `[[code]]`,
 //!   `[[cycle]]` and `[[pattern]]` (`G1` is `G01`), `letter` in `[[address]]`, `name` in `[[name]]`,
 //!   `[[call]]`, `[[option]]`, `[[behaviour]]` and `[[data]]`, `number` or else `name` in `[[system]]`, the options of
 //!   `when` in `[[variant]]`. A row of a key that the base has is merged over the base's row field by field and keeps its

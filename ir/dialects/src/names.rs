@@ -13,7 +13,7 @@ use crate::meaning::Meaning;
 use crate::words::{Quantity, RefusalHelp};
 
 /// A word of several letters: `TRANS`, `SUPA`, `CR`. It has a meaning of its own, or it is an
-/// address with a value behind `=`, or it is refused by a name.
+/// address with a value after `=`, or it is refused by a name.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NameRow {
@@ -38,8 +38,8 @@ pub struct NameRow {
     /// Its modal group, shared with the codes; empty for one-shots and addresses.
     #[serde(default)]
     pub group: String,
-    /// Whether empty brackets behind a word that is refused say nothing: they go back to the basic setting, which is
-    /// active wherever nothing else has been said.
+    /// Whether empty brackets after a word that is refused say nothing: they return to the basic setting, which is
+    /// active wherever nothing else has been stated.
     #[serde(default)]
     pub empty_brackets: bool,
     /// Whether the value 0 of an address that is refused says nothing: it is the basic setting.
@@ -54,7 +54,7 @@ pub struct NameRow {
     /// Whether the row is confirmed.
     #[serde(default = "crate::words::yes")]
     pub sure: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -80,7 +80,7 @@ pub enum NameMeaning {
     RepeatBlocks,
     /// `REPEAT_BLOCKS one`: of one block alone.
     RepeatBlock,
-    /// `TURN_ROTARY_AXES`: before the parentheses of an angle, which way round its axis goes there.
+    /// `TURN_ROTARY_AXES`: before the parentheses of an angle, in which direction its axis goes there.
     TurnRotaryAxis(RotaryWay),
     /// `END_OF_REPEAT`: a label up to which blocks are repeated that no label is named for.
     EndOfRepeat,
@@ -197,11 +197,11 @@ pub enum NameRole {
     SpindleLimit,
     /// Angle at which the spindle is stopped.
     SpindleAngle,
-    /// Radius that rounds the corner behind the block's move.
+    /// Radius that rounds the corner after the block's move.
     RoundCorner,
     /// The same for every move from here on; 0 ends it.
     RoundCorners,
-    /// How far before the corner behind the block's move its chamfer begins.
+    /// How far before the corner after the block's move its chamfer begins.
     ChamferCorner,
     /// Length of that chamfer.
     ChamferCornerByLength,
@@ -217,14 +217,14 @@ pub struct CallRow {
     pub kind: CallKind,
     /// Its parameters in the order of the arguments. Trailing arguments may be left out.
     pub parameters: Vec<Parameter>,
-    /// Whether the control begins at the end, or corner, that is nearest to where the tool stands;
+    /// Whether the control begins at the end, or corner, that is nearest to where the tool is;
     /// the order of the holes is that of the parameters only if the tool stands at the first.
     #[serde(default)]
     pub order_by_position: bool,
     /// Whether the row is confirmed.
     #[serde(default = "crate::words::yes")]
     pub sure: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -290,7 +290,7 @@ pub struct Parameter {
     /// Values that change nothing; 0 and an empty argument count always.
     #[serde(default)]
     pub neutral: Vec<i64>,
-    /// What is written for it where nothing is to be said and an argument follows; else it is empty.
+    /// What is written for it where nothing is to be stated and an argument follows; else it is empty.
     #[serde(default)]
     pub write: Option<i64>,
     /// What another value does.

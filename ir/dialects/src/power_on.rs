@@ -5,7 +5,7 @@ use ncc_ir::program::CentreFrom;
 use ncc_ir::program::cycle::Approach;
 use serde::Deserialize;
 
-/// State at power-on: what is taken for granted of a program that does not say.
+/// State at power-on: what is assumed of a program that does not say.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.
@@ -32,14 +32,14 @@ pub struct PowerOnFact<T> {
     /// What it is.
     pub value: T,
     /// Whether every such machine has it so; else it is one parameter's usual value, and a
-    /// program that relies on it is told so.
+    /// program that relies on it gets an assumption.
     #[serde(default)]
     pub always: bool,
     /// Of units: whether the sources know it of the machine, though not as its state at power-on, so that a program
     /// which never states them is not asked about them.
     #[serde(default)]
     pub of_the_machine: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -49,7 +49,7 @@ pub struct PowerOnFact<T> {
 pub enum PathStart {
     /// Every block ends in an exact stop (G60 of a Sinumerik, G61 of others).
     ExactStop,
-    /// Corners are rounded by what the axes lag behind, a fraction of a millimetre at usual feeds (G64 of a Fanuc).
+    /// Corners are rounded by the lag of the axes, a fraction of a millimetre at usual feeds (G64 of a Fanuc).
     Rounded,
     /// Corners are rounded up to a limit that a setting has.
     Within,

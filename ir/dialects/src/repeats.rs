@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
-/// Repetition of blocks by a block of its own, whose words name the first block and the last one and say
-/// how often: `H90 E240 L25`. Whether the count includes the first time is asked of the option
+/// Repetition of blocks by a block of its own, whose words name the first block, the last one and the
+/// repeat count: `H90 E240 L25`. Whether the count includes the first time is asked of the option
 /// `repeat_count`: `again`, or `total`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -14,7 +14,7 @@ pub struct RepeatRules {
     pub last: Option<char>,
     /// Letter of the count.
     pub times: Option<char>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -32,7 +32,7 @@ impl RepeatRules {
 /// Ends of moves by radius and angle. With letters, of straight moves about a centre in the same block:
 /// `G1 R30. C45. I0. J0.`; the centre's words are those of arcs, and count from program zero; all four words
 /// stand in the block. With the signs `@` and `^`, of any move about program zero in the XY plane:
-/// `G1 @30 ^45`; a word that is missing, or an increment, counts from where the tool stands. Read alone: what
+/// `G1 @30 ^45`; a word that is missing, or an increment, counts from where the tool is. Read alone: what
 /// is written are coordinates.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -41,7 +41,7 @@ pub struct PolarRules {
     pub radius: Option<char>,
     /// Letter of the angle, counter-clockwise from the first axis of the plane.
     pub angle: Option<char>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 

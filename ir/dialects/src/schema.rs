@@ -1,7 +1,7 @@
 //! The form of a dictionary.
 //!
 //! Every row that gives a word a meaning names its `source`; `sure = false` marks what no manual or
-//! measurement confirms, and a program that uses such a row is told so.
+//! measurement confirms, and ncc reports it for each program that uses such a row.
 
 use crate::words::{Address, NumberRules, Quantity, Role};
 use std::collections::BTreeMap;
@@ -105,7 +105,7 @@ pub struct Dialect {
     /// What a written program states before its first event, in this order.
     #[serde(default)]
     pub safe_start: Vec<SafeStart>,
-    /// Questions that the sources leave open, each with a working choice.
+    /// Parameters that the sources do not settle, each with a default.
     #[serde(default)]
     pub option: Vec<OptionRow>,
     /// What codes do besides their names.
@@ -164,7 +164,7 @@ pub struct ProgramRules {
     pub zero_unnumbered: bool,
     /// Whether the control skips text before the mark: the leader of a tape, with feed (zero bytes).
     pub leader: bool,
-    /// Whether a mark behind the end of a program counts for nothing where none stands before it.
+    /// Whether a mark after the end of a program counts for nothing where none stands before it.
     pub mark_behind_end: bool,
     /// A line that counts for nothing wherever it stands, such as `%`; empty for none. It is not written.
     pub ignored: String,
@@ -172,7 +172,7 @@ pub struct ProgramRules {
     pub padded_calls: bool,
     /// Least digits of a written program number.
     pub number_digits: usize,
-    /// Whether a program may have a name in place of a number: `<PART-1>`, called by the same behind the code of a
+    /// Whether a program may have a name in place of a number: `<PART-1>`, called by the same after the code of a
     /// call. `<O12>` is the program with that number.
     pub names: bool,
     /// Whether the comment after the number is a title.
@@ -182,23 +182,22 @@ pub struct ProgramRules {
     /// Whether the control has variables, expressions and jumps (macro language). Where there are none,
     /// their signs are no words at all.
     pub macros: bool,
-    /// Whether they mean what those of a custom macro B mean: then they are read; else they are refused by
-    /// name.
+    /// Whether they mean what those of a custom macro B mean: then they are read; else they are refused.
     pub macro_b: bool,
     /// Whether they are those of RS274/NGC with O words: parameters with numbers and names, `o100 sub`,
-    /// `o<name> call`, `o110 while [...]`. Then they are read; else they are refused by name.
+    /// `o<name> call`, `o110 while [...]`. Then they are read; else they are refused.
     pub o_words: bool,
     /// Words that make the control's own flow of a block that begins with the program number: `sub`,
-    /// `call`, `while`. Such a block is refused by name.
+    /// `call`, `while`. Such a block is refused.
     pub flow: Vec<String>,
     /// Digits of the program number in a call word that packs the count in front; 0 if it does not.
     pub packed_call_digits: u32,
-    /// Whether a return that names a block goes on there in its own program; else it goes back, to that block of the
+    /// Whether a return that names a block goes on there in its own program; else it returns, to that block of the
     /// caller.
     pub returns_within: bool,
-    /// Whether a return in the main program has it begin anew, for ever; else that is refused by name.
+    /// Whether a return in the main program has it begin again, for ever; else that is refused.
     pub begins_again: bool,
-    /// Names of the files in which called programs are looked for, without what stands behind the point, in
+    /// Names of the files in which called programs are looked for, without what stands after the point, in
     /// this order: `{}` is the program's name, `{4}` its number with at least so many digits.
     pub called: Vec<String>,
     /// The extension of files that hold a subprogram alone, without the dot, where the control knows them by it.
@@ -209,7 +208,7 @@ pub struct ProgramRules {
     /// Variables of definition files, in capitals, as the user states them: no key of a dictionary.
     #[serde(skip)]
     pub variables_elsewhere: Vec<ElsewhereRow>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -248,7 +247,7 @@ pub struct CommentRules {
     pub signs: String,
     /// Longest comment when writing, in characters; 0 for no limit. Longer ones are continued.
     pub longest: usize,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -262,7 +261,7 @@ pub struct BlockRules {
     pub end: String,
     /// Whether a letter without a number means zero.
     pub omitted_zero: bool,
-    /// Whether a number may have any digits behind its point: those that no control resolves are rounded, and reported.
+    /// Whether a number may have any digits after its point: those that no control resolves are rounded, and reported.
     pub any_digits: bool,
     /// Most G codes in a block; 0 for no limit.
     pub g_codes: u8,
@@ -275,14 +274,14 @@ pub struct BlockRules {
     /// Whether a feed counts in the units that were active before the block, also if the block
     /// changes them.
     pub feed_before_units: bool,
-    /// Whether a block can have a dwell and a straight move, which comes behind it.
+    /// Whether a block can have a dwell and a straight move, which comes after it.
     pub dwell_before_move: bool,
     /// Whether the spindle and the coolant are switched off before the block's move; else after it.
     pub off_before_move: bool,
     /// Whether a tool change comes before the move of its block, whatever their order in the text. Elsewhere that is
     /// the machine's: the change gets a block of its own when writing, and an option says what it does when reading.
     pub change_first: bool,
-    /// What marks a block that can be skipped; empty if there is no such thing.
+    /// What marks a block with block skip; empty if there is no such thing.
     pub skip: String,
     /// Highest skip level that can be written after the mark; 1 means the mark alone. Where the
     /// plain mark is the digit 0, level 10 is the digit 1.
@@ -295,7 +294,7 @@ pub struct BlockRules {
     pub longest: u32,
     /// Most characters of a block without blanks and comments, of a control that counts these; 0 for no such limit.
     pub longest_bare: u32,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -334,11 +333,11 @@ pub struct ArcRules {
     pub least_radius: f64,
     /// By how much half the chord may exceed a stated radius, in mm; `None` is the tolerance.
     pub short_radius: Option<f64>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
-/// A question that the sources leave open.
+/// A parameter that the sources do not settle.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OptionRow {
@@ -351,7 +350,7 @@ pub struct OptionRow {
     pub default: String,
     /// What it decides.
     pub doc: String,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -361,7 +360,7 @@ pub struct OptionRow {
 pub struct Can {
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
-    /// A length offset is taken up at once and moves nothing: the tool stands at another Z. An incremental
+    /// A length offset takes effect at once and moves nothing: the tool stands at another Z. An incremental
     /// Z, a cycle, or a new zero of Z before the next absolute one is then not what it is on a control that
     /// takes the length up with the next Z, and is refused.
     pub length_at_once: bool,
@@ -376,15 +375,15 @@ pub struct Can {
     /// its last move, and the block goes on from there in the control's own way. Of other controls it is an error.
     pub compensation_again: bool,
     /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is
-    /// neither gone round nor cut short, and the first move behind the contour leads to the programmed point of the
-    /// plane even if it has words of none of its axes. Of others it is taken for granted that every corner is gone
-    /// round, and that the first move with such words leads there, where the path has to be worked out.
+    /// neither gone round nor cut short, and the first move after the contour leads to the programmed point of the
+    /// plane even if it has words of none of its axes. Of others it is assumed that every corner is gone
+    /// round, and that the first move with such words leads there, where the path has to be computed.
     pub contour_left_at_once: bool,
     /// Canned cycles are driven through every point, whatever path mode is active (LinuxCNC's G61): no corner of
     /// theirs is rounded. It counts for times alone.
     pub cycles_in_exact_path: bool,
     /// Plain rounding of corners (G64) goes as far from the path as the acceleration asks for, without a tolerance. Else
-    /// it is bounded, by a setting or by what the axes lag behind.
+    /// it is bounded, by a setting or by the lag of the axes.
     pub rounds_freely: bool,
     /// Every structure is expanded, every axis named.
     pub flat: bool,

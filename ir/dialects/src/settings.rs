@@ -21,7 +21,7 @@ use crate::repeats::REPEAT_COUNT;
 use crate::schema::{Dialect, UNKNOWN};
 use crate::stored::SystemRow;
 
-/// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
+/// Option of a dictionary: the approach to the holes of a cycle. Its value `retract` is
 /// [`Approach::RetractFirst`], any other one the dictionary's own way.
 pub const CYCLE_APPROACH: &str = "cycle_approach";
 
@@ -31,7 +31,7 @@ pub const TAPPING: &str = "tapping";
 /// Option of a dictionary: what becomes of the dwell of a rigid tapping cycle, during which spindle and drilling axis stand.
 pub const TAP_DWELL: &str = "tap_dwell";
 
-/// Value of [`TAP_DWELL`]: it is left out, and told.
+/// Value of [`TAP_DWELL`]: it is left out, and reported.
 pub const LEFT_OUT: &str = "left-out";
 
 /// Option of a dictionary whose dwells count by a point: what a dwell counts that is computed, `seconds` or
@@ -174,7 +174,7 @@ pub const PATH_TOLERANCE: &str = "path_tolerance";
 /// plane.
 pub const BORE_SHIFT: &str = "bore_shift";
 
-/// Option: the angle at which the spindle stops where nothing else is said, in degrees.
+/// Option: the angle at which the spindle stops where nothing else is stated, in degrees.
 pub const SPINDLE_ANGLE: &str = "spindle_angle";
 
 /// A dialect and the values of its options.
@@ -230,7 +230,7 @@ impl Settings {
         self.derive();
     }
 
-    /// Finds the dictionary anew as the options make it.
+    /// Finds the dictionary again as the options make it.
     fn derive(&mut self) {
         self.dialect = derive::chosen(self.plain, |option| self.get(option).to_owned());
         if self.get(DWELL_UNIT) == "milliseconds" && self.is_chosen(DWELL_UNIT) {
@@ -331,7 +331,7 @@ impl Settings {
         }
     }
 
-    /// The way of the tool to the holes of a cycle.
+    /// The approach to the holes of a cycle.
     pub fn approach(&self) -> Approach {
         match self.get(CYCLE_APPROACH) {
             "retract" => Approach::RetractFirst,

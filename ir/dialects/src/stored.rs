@@ -16,7 +16,7 @@ use crate::words::RefusalHelp;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DataRow {
-    /// The code, and behind a blank the word that says which table; or a variable of the control with a `$`: in it,
+    /// The code, and after a blank the word that says which table; or a variable of the control with a `$`: in it,
     /// `#` is the number of the entry, `@` the letter of the axis.
     pub name: String,
     /// What the values are of.
@@ -35,7 +35,7 @@ pub struct DataRow {
     /// Whether values are added to those that are there while incremental coordinates are active.
     #[serde(default)]
     pub adds: bool,
-    /// Whether what is active of a tool stays as it is until it is called up anew; else nobody knows.
+    /// Whether what is active of a tool stays as it is until it is activated again; else nobody knows.
     #[serde(default)]
     pub kept: bool,
     /// Where tools are measured, the work offset in whose coordinates; 0 is those active.
@@ -44,10 +44,10 @@ pub struct DataRow {
     /// Of tools, the words of a block: what each is, and its letter.
     #[serde(default)]
     pub values: Vec<ValueWord>,
-    /// Letter of a word that turns a work offset, which is refused by name.
+    /// Letter of a word that turns a work offset, which is refused.
     #[serde(default)]
     pub turns: Option<char>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -62,7 +62,7 @@ pub enum DataKind {
     /// Tools.
     Tool,
     /// Offsets of tools, so that the axis words become the coordinates of where the axes stand, as soon as the tool
-    /// is called up.
+    /// is activated.
     ToolHere,
 }
 
@@ -155,7 +155,7 @@ pub struct SystemRow {
     pub option: String,
     /// The value of the option with which it does.
     pub when: String,
-    /// What is taken for granted where it is asked, in words; empty if nothing is.
+    /// What is assumed where it is asked, in words; empty if nothing is.
     pub assumes: String,
     /// What it means: the name of a system variable, without its axis, entry and unit.
     pub means: String,
@@ -167,11 +167,11 @@ pub struct SystemRow {
     pub refuse: Option<String>,
     /// Where it is refused, what to do instead.
     pub help: Option<RefusalHelp>,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
-/// How a program names a value of the control's own, behind the sign of variables.
+/// How a program names a value of the control's own, after the sign of variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableName<'r> {
     /// By the number of its parameter: `5001`.
@@ -269,7 +269,7 @@ impl SystemRow {
         self.by_name().chain(units.iter().flat_map(|machine| self.says_by_number(machine)))
     }
 
-    /// Values that it is by itself on a machine of this unit, each with how a program names it behind the sign of
+    /// Values that it is by itself on a machine of this unit, each with how a program names it after the sign of
     /// variables: by the row's name, else by its number. Those that are several together are none.
     pub fn says_in<'r>(
         &'r self,

@@ -78,7 +78,7 @@ pub struct VariantBlock {
 pub struct VariantCan {
     /// A tool is changed by hand.
     pub change_by_hand: Option<bool>,
-    /// A length offset is taken up at once and moves nothing.
+    /// A length offset takes effect at once and moves nothing.
     pub length_at_once: Option<bool>,
 }
 

@@ -32,7 +32,7 @@ pub struct NumberRules {
     pub decimals: u8,
     /// The same, in inches; `None` if the unit makes no difference.
     pub decimals_inch: Option<u8>,
-    /// Most digits that are written, at most 9; 8 if nothing is said.
+    /// Most digits that are written, at most 9; 8 if nothing is stated.
     pub digits: Option<u8>,
     /// What a number without a point counts.
     pub bare: Bare,
@@ -94,14 +94,14 @@ pub struct Address {
     /// Whether the value may be a name in quotation marks.
     #[serde(default)]
     pub named: bool,
-    /// Whether a point behind a whole number is read where the quantity has none: no source says what the control does
-    /// with it, and it can mean nothing else. Each program with one is told.
+    /// Whether a point after a whole number is read where the quantity has none: no source says what the control does
+    /// with it, and it can mean nothing else. Each program with one is reported.
     #[serde(default)]
     pub point_read: bool,
     /// Whether it is confirmed that entry 0 of a table is none.
     #[serde(default = "yes")]
     pub zero_sure: bool,
-    /// Who says so.
+    /// The manual and its page, or another source.
     pub source: String,
 }
 
@@ -127,7 +127,7 @@ pub enum Role {
     Tool,
     /// Entry of the length table, used by a code of the block.
     LengthEntry,
-    /// Entry of the length table, taken up by the word itself.
+    /// Entry of the length table, applied by the word itself.
     Corrector,
     /// Entry of the radius table.
     RadiusEntry,

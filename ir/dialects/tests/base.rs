@@ -1,4 +1,4 @@
-//! Dictionaries that build on others: what is merged how, and where a fault is told.
+//! Dictionaries that build on others: what is merged how, and where a fault is reported.
 
 use ncc_dialects::{
     Dialect, DialectError, DialectFault, Meaning, Quantity, RowFault, Text, builtin, load, parse,

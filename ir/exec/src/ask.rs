@@ -18,7 +18,7 @@ impl Exec {
         self.contour.watched
     }
 
-    /// A point of the machine in the program's coordinates, as the frames are now.
+    /// A reference point in the program's coordinates, as the frames are now.
     pub fn in_program(&self, machine: &[Nanos; AXES]) -> [Nanos; AXES] {
         self.unplace(machine)
     }
@@ -29,7 +29,7 @@ impl Exec {
         [x, y, z]
     }
 
-    /// Entry of the tool-length table in force; `None` is an edge of a tool.
+    /// Entry of the tool-length table active; `None` is an edge of a tool.
     pub fn length_entry(&self) -> Option<u32> {
         match self.waiting.unwrap_or(self.modes.length) {
             Length::Entry(entry) => Some(entry),
@@ -37,7 +37,7 @@ impl Exec {
         }
     }
 
-    /// Tool and edge whose length is in force, where that is no entry of the tool-length table; the tool
+    /// Tool and edge whose length is active, where that is no entry of the tool-length table; the tool
     /// is -1 where none was named.
     pub fn length_edge(&self) -> Option<(i64, u32)> {
         match self.waiting.unwrap_or(self.modes.length) {
@@ -46,7 +46,7 @@ impl Exec {
         }
     }
 
-    /// Work offset in force, whoever named it; 1 is the first.
+    /// Work offset active, whoever named it; 1 is the first.
     pub fn offset_in_force(&self) -> u16 {
         self.modes.work_offset
     }
@@ -56,7 +56,7 @@ impl Exec {
         self.position
     }
 
-    /// A literal in nanos of a millimetre, a degree or a second, as units are in force; `None` is
+    /// A literal in nanos of a millimetre, a degree or a second, as units are active; `None` is
     /// what is not known without execution.
     pub fn nanos(&self, value: &Expr) -> Option<Nanos> {
         self.value(value, Span::default()).ok()
@@ -67,13 +67,13 @@ impl Exec {
         self.target(word, from, Span::default()).ok()
     }
 
-    /// Plane of the cycle in force, its retract plane and the bottom of its holes, in the program's
+    /// Plane of the active cycle, its retract plane and the bottom of its holes, in the program's
     /// coordinates.
     pub fn cycle_levels(&self) -> Option<(Plane, Nanos, Nanos)> {
         self.cycle.as_ref().map(ActiveCycle::levels)
     }
 
-    /// Feed in force, mm/min in nanos; 0 where none was said.
+    /// Feed active, mm/min in nanos; 0 where none was stated.
     pub fn feed(&self) -> Nanos {
         self.feed
     }
@@ -108,20 +108,20 @@ impl Exec {
         }
     }
 
-    /// Whether points are those of the tool's tip, or of a tilted plane: where the linear axes then are,
+    /// Whether points are those of the tool tip, or of a tilted plane: where the linear axes then are,
     /// the machine alone knows.
     pub fn is_tilted(&self) -> bool {
         self.state.tip || self.state.tilted
     }
 
-    /// Plane of arcs and hole positions in force.
+    /// Plane of arcs and hole positions active.
     pub fn plane(&self) -> Plane {
         self.modes.plane
     }
 
     /// What the program gets that asks for a value of the control's own; `None` is what is not known here, or not
-    /// the same on every control at this place: where the tool stands beside a contour or at a corner that is not
-    /// made yet, or along Z while a length waits to be taken up; a feed that was said in the other unit.
+    /// the same on every control at this place: where the tool is beside a contour or at a corner that is not
+    /// made yet, or along Z while a length waits to take effect; a feed that was stated in the other unit.
     pub fn answer(&self, asked: &System) -> Option<f64> {
         let holds = |holds: bool| Some(f64::from(u8::from(holds)));
         match asked {
@@ -234,14 +234,14 @@ impl Exec {
         !self.contour.watched && self.corner.is_none() && !self.is_tilted()
     }
 
-    /// A length in the unit in force, or in another; an angle in degrees.
+    /// A length in the active unit, or in another; an angle in degrees.
     fn counted(&self, nanos: Nanos, axis: Axis, unit: Option<Units>) -> f64 {
         let inch = unit.map_or(self.modes.inch, |unit| unit == Units::Inch);
         let one = if inch && !axis.is_rotary() { 25.4 * ONE as f64 } else { ONE as f64 };
         nanos as f64 / one
     }
 
-    /// The number kept of the shift of the origin along an axis; `None` where an earlier program may have left it.
+    /// The number kept of the G92 shift along an axis; `None` where an earlier program may have left it.
     fn kept_shift(&self, axis: usize) -> Option<Nanos> {
         if self.said & SHIFT_STORED == 0 && self.world.seed != 0 {
             return None;

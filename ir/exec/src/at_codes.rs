@@ -374,7 +374,7 @@ mod tests {
     use ncc_ir::expr::num::{Num, Unit};
     use ncc_ir::program::{Arc, Centre, Move, Point, Turns};
 
-    /// What the short way passes over comes to nothing at length either.
+    /// What the short way passes over gives nothing at length either.
     #[test]
     fn plain_statements_come_to_nothing() {
         let number = Expr::Num(Num::int(5, Unit::Entry));

@@ -1,7 +1,7 @@
-//! Points of the machine, and values that a program puts into the control's tables.
+//! Reference points, and values that a program puts into the control's tables.
 //!
-//! A point of the machine is where the world has it; axes go there by a rapid move like any other.
-//! Where a probe says so on the way, the world has, too.
+//! A reference point is where the world has it; axes go there by a rapid move like any other.
+//! The world states where a probe triggers.
 //! What is put into a table counts from then on, and is an event: a value that this program does not
 //! use may be another's.
 
@@ -53,7 +53,7 @@ impl Exec {
     }
 
     /// A rapid straight move that goes another way than straight. By the intermediate point it goes where that is
-    /// the same place of the work and of the machine as when it was said: which of them a control keeps is not
+    /// the same place of the work and of the machine as when it was stated: which of them a control keeps is not
     /// relied on.
     #[cold]
     pub(super) fn go_by_detour(
@@ -121,7 +121,7 @@ impl Exec {
         }
     }
 
-    /// Whether a straight move is one with a code of its own, for which no cycle may be in force.
+    /// Whether a straight move is one with a code of its own, for which no cycle may be active.
     pub(super) fn has_own_code(&self, span: Span) -> Result<bool, Diagnostic> {
         let own_code = self.raw.is_some() || self.probing.is_some();
         if own_code && self.cycle.is_some() {
@@ -130,7 +130,7 @@ impl Exec {
         Ok(own_code)
     }
 
-    /// A straight move at feed to the present position, which ends where the probe says so.
+    /// A straight move at feed to the present position, which ends where the probe triggers.
     #[cold]
     pub(super) fn probe(&mut self, feed: bool, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let Some(probe) = self.probing.take() else { return Ok(()) };
@@ -152,7 +152,7 @@ impl Exec {
         self.emit(Kind::Probe { to: Box::new(to), probe }, span, out)
     }
 
-    /// Goes back from where the probe has touched, the way it came, as far as this machine does so by itself.
+    /// Retracts from where the probe has touched, the way it came, as far as this machine does so by itself.
     fn back_off(&mut self, from: &[Nanos; AXES]) {
         let way: [f64; 3] = std::array::from_fn(|axis| (self.last[axis] - from[axis]) as f64);
         let long = way.iter().map(|n| n * n).sum::<f64>().sqrt();

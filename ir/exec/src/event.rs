@@ -33,14 +33,14 @@ pub enum Kind {
     Traverse,
     /// Straight at feed.
     Feed,
-    /// Straight, in step with the spindle.
+    /// Straight, synchronised with the spindle.
     Synchronised {
         /// How far it goes in one turn, nanos of a millimetre.
         pitch: Nanos,
         /// Whether a compensating chuck makes good what feed and spindle are apart.
         chuck: bool,
     },
-    /// Straight at feed, until the probe says so; the event ends where that is.
+    /// Straight at feed, until the probe triggers; the event ends where that is.
     Probe {
         /// How far it goes at most, machine coordinates.
         to: Box<[Nanos; AXES]>,
@@ -62,7 +62,7 @@ pub enum Kind {
     Dwell(Nanos),
     /// The selected tool is put in.
     ToolChange,
-    /// The spindle is stopped at an angle, degrees in nanos.
+    /// Oriented spindle stop, degrees in nanos.
     Orient(Nanos),
     /// Another working plane counts, or none (`None`).
     Tilt(Option<Box<TiltedPlane>>),
@@ -70,7 +70,7 @@ pub enum Kind {
     OrientToolAxis(Option<Toward>),
     /// Coolant was switched.
     Coolant,
-    /// Something of the machine was switched that no dialect has a word for.
+    /// Something of the machine was switched that no dialect supports.
     MachineFunction(Text),
     /// A value was put into the control's tables.
     Data(Box<Stored>),
@@ -80,7 +80,7 @@ pub enum Kind {
     OptionalProgramStop,
     /// End.
     ProgramEnd,
-    /// The program begins anew, and goes on so for ever: execution ends here.
+    /// The program begins again, and goes on so for ever: execution ends here.
     BeginAgain,
     /// The text is over, and never said so: what is still on stays on.
     TextEnd,
@@ -90,7 +90,7 @@ pub enum Kind {
     Output(Written),
     /// The program ends with an alarm for the operator: its number, if it has one, in nanos, and its text.
     Alarm(Option<Nanos>, Text),
-    /// What sets something and moves nothing. Made only where functions are told one by one
+    /// What sets something and moves nothing. Made only where functions are reported one by one
     /// ([`Exec::narrate`](super::Exec::narrate)), and never compared: what it sets is an attribute of
     /// the events after it.
     Attribute(Attribute),
@@ -107,7 +107,7 @@ pub enum Stored {
     Tool(u32),
     /// Length of an entry of the table of tools, wear included.
     Length(u32, Nanos),
-    /// Another value of an entry of that table: which, whether it was added, and what was said.
+    /// Another value of an entry of that table: which, whether it was added, and what was stated.
     Value(u32, ToolValue, bool, Nanos),
 }
 
@@ -240,7 +240,7 @@ pub struct State {
     /// Spindle speed in the unit of its mode (rev/min, m/min), nanos; counts only while the spindle
     /// turns.
     pub speed: Nanos,
-    /// Advice in force, three bits a kind: its value and one, or 0 where none was given.
+    /// Advice active, three bits a kind: its value and one, or 0 where none was given.
     pub advice: u64,
     /// Highest spindle speed in thousandths of a turn a minute; counts only while the spindle turns.
     pub limit: u32,
@@ -260,14 +260,14 @@ pub struct State {
     pub feed_mode: FeedMode,
     /// How corners are taken; `None` is as at the start.
     pub path: Option<PathMode>,
-    /// Whether points are those of the tool's tip.
+    /// Whether points are those of the tool tip.
     pub tip: bool,
     /// Whether points are those of a tilted plane: the one of the last [`Kind::Tilt`].
     pub tilted: bool,
     /// Which of A, B and C turn the other way round than their angles say, two bits each: 1 towards greater
     /// ones, 2 towards smaller ones.
     pub turned: u8,
-    /// Which axes come to the end of this move from one side, always the same; a bit each, X first.
+    /// Which axes reach the end of this move from one side, always the same; a bit each, X first.
     pub one_side: u8,
     /// What the control itself has switched or moved, and no word of the program since: [`by_control`].
     pub by_control: u8,
@@ -342,16 +342,16 @@ impl State {
     }
 }
 
-/// What of a [`State`] a control has words for: the rest does not count in a comparison with it.
+/// What of a [`State`] a control supports: the rest does not count in a comparison with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seen {
-    /// Modes of taking corners that are told from others, a bit each, with the lengths that belong to them.
+    /// Modes of taking corners that are distinguished from others, a bit each, with the lengths that belong to them.
     pub modes: u16,
-    /// Whether the length of rounding in rapids is told from that of cuts.
+    /// Whether the length of rounding in rapids is distinguished from that of cuts.
     pub in_rapids: bool,
-    /// Whether the length within which moves are made one is told from that of corners.
+    /// Whether the length within which moves are made one is distinguished from that of corners.
     pub merges: bool,
-    /// Whether an exact stop is told from rounding at all.
+    /// Whether an exact stop is distinguished from rounding at all.
     pub path: bool,
     /// Kinds of advice, three bits each.
     pub advice: u64,
@@ -375,7 +375,7 @@ impl Seen {
         }
     }
 
-    /// What both of two controls have words for.
+    /// What both of two controls support.
     pub fn both(self, other: Seen) -> Seen {
         Seen {
             modes: self.modes & other.modes,
@@ -416,7 +416,7 @@ impl Seen {
     }
 }
 
-/// Bits of the advice that a target has words for, as [`State::advice`] has
+/// Bits of the advice that a target supports, as [`State::advice`] has
 /// them.
 fn seen_advice(caps: &Caps) -> u64 {
     let kinds = AdviceKind::ALL.into_iter().map(|(kind, _)| kind);

@@ -29,7 +29,7 @@ pub(super) struct InBlock {
     length: Option<Span>,
     /// The tool that waited before the block selected another one.
     before: Option<i64>,
-    /// The block switches control of the tool's tip, whose length moves nothing.
+    /// The block switches tool centre point control, whose length moves nothing.
     tip: bool,
 }
 
@@ -58,7 +58,7 @@ impl Exec {
         }
     }
 
-    /// A length is called up, which may move its axis at the end of the block.
+    /// A length is activated, which may move its axis at the end of the block.
     pub(super) fn called_in_block(&mut self, span: Span) {
         if self.follows(Behaviour::LengthWithoutAxis) && !self.state.tip {
             let block = self.in_block.get_or_insert_default();
@@ -68,7 +68,7 @@ impl Exec {
         }
     }
 
-    /// Control of the tool's tip is switched: its length is no call of its own.
+    /// Tool centre point control is switched: its length is no call of its own.
     pub(super) fn tip_in_block(&mut self) {
         if self.follows(Behaviour::LengthWithoutAxis) {
             self.in_block.get_or_insert_default().tip = true;
@@ -173,7 +173,7 @@ impl Exec {
         self.said_by_program(by_control::Z_COUNTED);
     }
 
-    /// Behaviours that these statements come to by all the words of a block, a bit each.
+    /// Behaviours that these statements reach by all the words of a block, a bit each.
     pub(super) fn by_blocks(&self, stmts: &[Stmt]) -> u64 {
         if !stmts.iter().any(|stmt| matches!(stmt.op, Op::ChangeTool) || stmt.op.calls_length()) {
             return 0;

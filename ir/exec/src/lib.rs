@@ -3,13 +3,13 @@
 //!
 //! Everything that a program does not say comes from the [`World`]. Events are in machine
 //! coordinates, so that a lost work offset or a wrong length entry shows. Statements whose meaning
-//! is not executed yet (variables, jumps) are refused by name.
+//! is not executed yet (variables, jumps) are refused.
 //!
 //! ```text
 //! HOLE(X 10mm)  in a world with work offset (100, 50, -20)    three moves in machine coordinates, each with its feed
 //! ```
 //!
-//! Not here: who supplies the world, and what is told of a difference (the driver).
+//! Not here: who supplies the world, and what is reported of a difference (the driver).
 
 mod ask;
 mod at_codes;
@@ -88,9 +88,9 @@ pub struct Exec {
     frame: [Nanos; AXES],
     /// Frames between the program and that.
     chain: Option<Box<Chain>>,
-    /// The slots that they come from, and the shift of the origin; `None` is nothing in any.
+    /// The slots that they come from, and the G92 shift; `None` is nothing in any.
     slots: Option<Box<Frames>>,
-    /// Whether the work offset in force is turned: then the shift of the origin is in the chain.
+    /// Whether the active work offset is turned: then the G92 shift is in the chain.
     offset_turned: bool,
     /// Changes of frames and work offsets that the next incremental words include.
     carried: Option<Box<moves::carried::Carried>>,
@@ -102,34 +102,34 @@ pub struct Exec {
     heading: Heading,
     /// How corners are taken after the next move, which ends in an exact stop.
     after_stop: Option<Option<PathMode>>,
-    /// Which way round A, B and C go in the next move.
+    /// The direction in which A, B and C turn in the next move.
     ways: Option<[Option<RotaryWay>; 3]>,
     /// The next straight move is in machine coordinates, with the tool's length or without.
     raw: Option<bool>,
-    /// The next straight move at feed ends where the probe says so.
+    /// The next straight move at feed ends where the probe triggers.
     probing: Option<Probe>,
     /// The next rapid straight move goes another way than straight.
     detour: Option<Detour>,
-    /// By way of which point each axis went to a point of the machine last: of the program, and of the machine.
+    /// Through which intermediate point each axis went to a reference point last: of the program, and of the machine.
     intermediate: Box<[Option<[Nanos; 2]>; AXES]>,
     /// About which polar points are.
     pole: Pole,
-    /// The length that the next Z takes up.
+    /// The length that the next Z applies.
     waiting: Option<Length>,
-    /// The length called up last, where it counts as none because the operator sets the zero of Z by the tool: its radius
-    /// is in force all the same.
+    /// The length activated last, where it counts as none because the operator sets the zero of Z by the tool: its radius
+    /// is active all the same.
     zeroed: Option<Length>,
     /// Rotary axes that the program itself has put somewhere, a bit each.
     turned_known: u8,
-    /// The move at hand says itself which way round rotary axes go.
+    /// The move at hand says itself the direction in which rotary axes turn.
     own_way: bool,
-    /// The axis along which lengths lie and are taken up: Z, but on controls that go by the plane.
+    /// The axis along which lengths lie and take effect: Z, but on controls that go by the plane.
     along: usize,
-    /// Offsets of the tool in force along X and Y.
+    /// Offsets of the active tool along X and Y.
     aside: [Nanos; 2],
     /// The contour that the tool goes beside.
     contour: Contour,
-    /// The path of the tool's centre beside it, where that is computed.
+    /// The tool centre path beside it, where that is computed.
     centre_path: Option<Box<CentrePath>>,
     /// A corner that is to be made.
     corner: Option<Box<moves::corner::Corner>>,
@@ -140,7 +140,7 @@ pub struct Exec {
     feed: Nanos,
     /// The time of the move at hand, where its feed says it in a way of the control.
     pace: moves::pace::Pace,
-    /// Whether it was said in inches, if it was said in either.
+    /// Whether it was stated in inches, if it was stated in either.
     feed_inch: Option<bool>,
     selected: i64,
     /// The tool of the last change; -1 before the first.
@@ -151,7 +151,7 @@ pub struct Exec {
     /// Whether what a speed counts needs to be looked at before anything happens.
     speed_watched: bool,
     cycle: Option<ActiveCycle>,
-    /// Behaviours of the control that the program has come to, a bit each.
+    /// Behaviours of the control that the program has reached, a bit each.
     asked: u64,
     /// Whether the program has ended.
     ended: bool,
@@ -161,7 +161,7 @@ pub struct Exec {
     quiet: bool,
     /// Straight moves that are kept in place of their events.
     strokes: Option<Box<moves::holes::strokes::Strokes>>,
-    /// Whether functions are told that make no events.
+    /// Whether functions without events are reported.
     narrating: bool,
     /// Whether straight moves that go nowhere make events.
     every_move: bool,
@@ -174,7 +174,7 @@ pub struct Exec {
     arc_feeds: [[Option<Span>; 2]; 2],
 }
 
-/// Modes in force; a control always has a value for each.
+/// Modes active; a control always has a value for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct InModes {
     motion: Motion,
@@ -200,9 +200,9 @@ const WORK: u16 = 32;
 const LENGTH: u16 = 64;
 const SHIFT: u16 = 128;
 const FEED_MODE: u16 = 256;
-/// The numbers kept of a shift of the origin are the program's own, all of them.
+/// The numbers kept of a G92 shift are the program's own, all of them.
 const SHIFT_STORED: u16 = 512;
-/// The shift of the origin is in force, be it of nothing.
+/// The G92 shift is active, be it of nothing.
 const SHIFT_TAKEN_UP: u16 = 1024;
 
 impl Exec {
@@ -287,7 +287,7 @@ impl Exec {
         self.ended
     }
 
-    /// Work offset in force, and whether the program or an assumption named it.
+    /// Work offset active, and whether the program or an assumption named it.
     pub fn work_offset(&self) -> Option<u16> {
         (self.said & WORK != 0).then_some(self.modes.work_offset)
     }

@@ -3,7 +3,7 @@
 //!
 //! A map is plain data: whoever makes it knows the machines, whoever uses it does not. Two forms
 //! serve two sides that must not rest on each other: [`Maps`] goes from the source's numbers to the
-//! target's, and a pass writes by it; [`Renaming`] goes back, and verification judges by it.
+//! target's, and a pass writes by it; [`Renaming`] maps back, and verification judges by it.
 //!
 //! Not here: where the numbers come from, and what is done about one that has none.
 
@@ -13,7 +13,7 @@ use ncc_ir::canon::Modes;
 use ncc_ir::program::Text;
 use ncc_ir::program::numbered::Numbered;
 
-/// The target's numbers of what the source calls by its own. A map that is `None` is not in force:
+/// The target's numbers of what the source calls by its own. A map that is `None` is not active:
 /// numbers stay as they are. In one that is, a number that has no row is not known to the target.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Maps {

@@ -26,7 +26,7 @@ impl Exec {
         self.world.break_lift = lift;
     }
 
-    /// Sets the angle at which the control stops the spindle where nothing else is said, degrees in nanos.
+    /// Sets the angle at which the control stops the spindle where nothing else is stated, degrees in nanos.
     pub fn set_orientation(&mut self, angle: Nanos) {
         self.world.orientation = angle;
     }
@@ -85,7 +85,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Executes a statement; if it is a straight move, its rotary axes go the way that was said before it.
+    /// Executes a statement; if it is a straight move, its rotary axes go the way that was stated before it.
     #[cold]
     pub(super) fn step_turning(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let (Op::StraightFeed(m) | Op::StraightTraverse(m)) = &stmt.op else {
@@ -186,7 +186,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Tells a function that moves nothing, where functions are told.
+    /// Tells a function that moves nothing, where functions are reported.
     #[inline]
     pub(super) fn tell(
         &mut self,
@@ -212,8 +212,8 @@ impl Exec {
     /// Whether two controls are in one state: whatever both execute next, both do the same. (Facts
     /// about power-on do not count any more.)
     ///
-    /// A cycle in force is part of the state. All that a hole takes of it is in `ActiveCycle`, the control's parameters
-    /// included, but for the angle at which fine boring stops the spindle where nothing else is said.
+    /// An active cycle is part of the state. All that a hole takes of it is in `ActiveCycle`, the control's parameters
+    /// included, but for the angle at which fine boring stops the spindle where nothing else is stated.
     pub fn agrees(&self, other: &Exec) -> bool {
         self.modes.return_level == other.modes.return_level
             && self.has_cycle_of(other)
@@ -222,10 +222,10 @@ impl Exec {
 
     /// Whether two controls are in one state as far as plain lines go: whatever lines both execute next, both do the same.
     ///
-    /// Of frames a line reads what they come to, the frame and the chain: not in which slot what lies, which may be
+    /// Of frames a line reads their sum, the frame and the chain: not in which slot what lies, which may be
     /// another one on each control (G68 turns in one of its own, ROT in that of TRANS). Slots are read where a frame or a
     /// length is changed; so where anything waits for a line, they count. The level to which cycles return that say none
-    /// no line reads or changes; but while a cycle is in force, a position alone is a hole.
+    /// no line reads or changes; but while a cycle is active, a position alone is a hole.
     pub fn agrees_on_lines(&self, other: &Exec) -> bool {
         (self.slots == other.slots || self.takes_lines())
             && self.cycle.is_none()
@@ -233,18 +233,18 @@ impl Exec {
             && self.agrees_in_place(other)
     }
 
-    /// Whether all is the same but for cycles: the one in force, and the level to return to.
+    /// Whether all is the same but for cycles: the active one, and the level to return to.
     pub(crate) fn agrees_beside_cycle(&self, other: &Exec) -> bool {
         self.slots == other.slots && self.agrees_in_place(other)
     }
 
-    /// Whether all is the same that straight moves of a hole or of lines make events of: but for cycles, the motion in
-    /// force, and the direction of the last move, which these do not read. Nor do they slots, where nothing waits for them.
+    /// Whether all is the same that straight moves of a hole or of lines make events of: but for cycles, the active motion,
+    /// and the direction of the last move, which these do not read. Nor do they slots, where nothing waits for them.
     pub(crate) fn agrees_beside_motion(&self, other: &Exec) -> bool {
         self.agrees_beside_way(other, InModes { motion: self.modes.motion, ..other.modes })
     }
 
-    /// Whether all is the same that straight moves make events of, but for the motion in force, the feed, and what it counts.
+    /// Whether all is the same that straight moves make events of, but for the active motion, the feed, and what it counts.
     pub(crate) fn agrees_beside_feed(&self, other: &Exec) -> bool {
         let counted = State { feed_mode: self.state.feed_mode, ..other.state };
         let modes = InModes { motion: self.modes.motion, ..other.modes };
@@ -254,7 +254,7 @@ impl Exec {
             && self.agrees_beside_state(other, modes)
     }
 
-    /// Whether the same cycle is in force on both controls, if any is.
+    /// Whether the same cycle is active on both controls, if any is.
     fn has_cycle_of(&self, other: &Exec) -> bool {
         let same_parameters = self.cycle.is_none() || self.world.orientation == other.world.orientation;
         self.cycle == other.cycle && same_parameters
@@ -337,7 +337,7 @@ impl Exec {
     }
 }
 
-/// The number by which a tool with a name is told from others: less than -1, the same wherever the name
+/// The number by which a tool with a name is distinguished from others: less than -1, the same wherever the name
 /// is met.
 pub fn named_tool(name: &str) -> i64 {
     let hash = name

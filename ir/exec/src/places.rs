@@ -38,7 +38,7 @@ impl Exec {
         at
     }
 
-    /// A point of the machine in program coordinates.
+    /// A reference point in program coordinates.
     pub(super) fn unplace(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
         let mut p = *p;
         for (place, shift) in p.iter_mut().zip(&self.frame) {
@@ -50,7 +50,7 @@ impl Exec {
         }
     }
 
-    /// Computes the frame anew; the machine stays at `here`.
+    /// Computes the frame again; the machine stays at `here`.
     pub(super) fn reframe(&mut self, here: [Nanos; AXES]) {
         self.frame = self.world.work_offset(self.modes.work_offset);
         let external = self.external();
@@ -76,7 +76,7 @@ impl Exec {
         self.heading = Heading::None;
     }
 
-    /// Takes up a waiting length entry: the coming Z is measured with it.
+    /// Applies a waiting length entry: the coming Z is measured with it.
     #[inline]
     pub(super) fn take_up_length(&mut self) {
         if let Some(length) = self.waiting.take() {
@@ -100,7 +100,7 @@ impl Exec {
         })
     }
 
-    /// Where the words put the axes; takes up a waiting length with a Z word.
+    /// Where the words put the axes; applies a waiting length with a Z word.
     #[inline]
     pub(super) fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
         let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };

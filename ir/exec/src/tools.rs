@@ -1,8 +1,8 @@
-//! Values of the table of tools, and the offsets of the tool in force: its length, and what it is put aside along
+//! Values of the table of tools, and the offsets of the active tool: its length, and what it is put aside along
 //! X and Y.
 //!
-//! Offsets along X and Y count as soon as they are called up, and move nothing. They are along the machine's axes,
-//! outside all frames. Nothing of an entry in force changes by another value in its table where the program's control
+//! Offsets along X and Y count as soon as they are activated, and move nothing. They are along the machine's axes,
+//! outside all frames. Nothing of an active entry changes by another value in its table where the program's control
 //! keeps it; where nobody knows, that is not executed.
 
 use super::{Exec, Kind, Stored, Z};
@@ -18,7 +18,7 @@ use ncc_ir::source::Span;
 use ncc_ir::unexecuted::ToolUnexecuted;
 
 impl Exec {
-    /// Offsets of the tool in force, in the machine's directions.
+    /// Offsets of the active tool, in the machine's directions.
     pub(super) fn tool_offset(&self) -> [Nanos; AXES] {
         let [x, y] = self.aside;
         let mut offset = [x, y, 0, 0, 0, 0];
@@ -26,7 +26,7 @@ impl Exec {
         offset
     }
 
-    /// The axis along which lengths lie in the plane in force, on this control.
+    /// The axis along which lengths lie in the active plane, on this control.
     pub(super) fn length_axis(&self) -> usize {
         match self.world.behaviours.does(Behaviour::LengthAxisInPlane) {
             true => self.modes.plane.axes().2 as usize,
@@ -52,7 +52,7 @@ impl Exec {
         }
     }
 
-    /// A length is called up that may lie along another axis than Z; one that lies along another than that is over.
+    /// A length is activated that may lie along another axis than Z; one that lies along another than that is over.
     fn call_up_along(&mut self) {
         let normal = self.modes.plane.axes().2 as usize;
         if normal != Z {
@@ -65,7 +65,7 @@ impl Exec {
         }
     }
 
-    /// Behaviours about lengths that these statements come to in another plane than that of X and Y.
+    /// Behaviours about lengths that these statements reach in another plane than that of X and Y.
     pub fn lengths_aside_in(&self, stmts: &[Stmt]) -> u64 {
         let mut aside = self.modes.plane != Plane::Xy;
         let mut bits = 0;
@@ -84,7 +84,7 @@ impl Exec {
         bits
     }
 
-    /// Offsets of the tool as the program has called them up, whether Z has taken up its length or not.
+    /// Offsets of the tool as the program has called them up, whether Z has applied its length or not.
     pub fn called_up(&self) -> [Nanos; 3] {
         let [x, y] = self.aside;
         [x, y, self.length_of(self.waiting.unwrap_or(self.modes.length))]
@@ -115,7 +115,7 @@ impl Exec {
         }
     }
 
-    /// A length is called up by its place in the tables; of one by which the operator has set the zero of Z, the radius
+    /// A length is activated by its place in the tables; of one by which the operator has set the zero of Z, the radius
     /// alone counts.
     pub(super) fn call_up_zeroed(&mut self, length: Length, span: Span) -> Result<(), Diagnostic> {
         let counts = self.as_zeroed(length);
@@ -123,7 +123,7 @@ impl Exec {
         self.call_up(counts, span)
     }
 
-    /// The length that is called up, whether it counts along Z or not: its place has the radius.
+    /// The length that is activated, whether it counts along Z or not: its place has the radius.
     pub(super) fn length_in_force(&self) -> Length {
         match self.waiting.unwrap_or(self.modes.length) {
             Length::Entry(0) => self.zeroed.unwrap_or(Length::Entry(0)),
@@ -131,7 +131,7 @@ impl Exec {
         }
     }
 
-    /// A length is called up, which the next Z takes up; offsets along X and Y count at once.
+    /// A length is activated, which the next Z applies; offsets along X and Y count at once.
     pub(super) fn call_up(&mut self, length: Length, span: Span) -> Result<(), Diagnostic> {
         let aside = match length {
             Length::Entry(entry) => self.world.tool_offsets(entry),
@@ -158,7 +158,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Offsets that are stated along X, Y and Z, or added to those in force.
+    /// Offsets that are stated along X, Y and Z, or added to the active ones.
     pub(super) fn offsets_of(
         &self,
         words: &[Option<Expr>; AXES],
@@ -187,7 +187,7 @@ impl Exec {
         if entry == 0 {
             return self.fault(Fault::OutOfRange { word: "entry".into() }, span);
         }
-        // A radius is taken up with its edge.
+        // A radius takes effect with its edge.
         let edge = is_edge_of(entry, self.waiting.unwrap_or(self.modes.length));
         if edge && matches!(which, ToolValue::Radius | ToolValue::RadiusWear) {
             self.not_executed(ToolUnexecuted::RadiusInUse, span)?;
@@ -213,7 +213,7 @@ impl Exec {
         })
     }
 
-    /// What is in force of an entry stays as it is. An entry that another has replaced, or a cancellation, is in force no
+    /// What is active of an entry stays as it is. An entry that another has replaced, or a cancellation, is active no
     /// more, whether Z has been commanded since or not.
     fn hold_entry(&mut self, entry: u32, kept: bool, span: Span) -> Result<(), Diagnostic> {
         let counts = |length: Length| length == Length::Entry(entry) || is_edge_of(entry, length);
@@ -228,12 +228,12 @@ impl Exec {
         Ok(())
     }
 
-    /// Sets offsets of an entry so that, called up, they make the words the coordinates of where the axes stand: in
-    /// force, or in a work offset without the shift of the origin. An axis without a word keeps its offset, as it is
+    /// Sets offsets of an entry so that, activated, they make the words the coordinates of where the axes stand: active,
+    /// or in a work offset without the G92 shift. An axis without a word keeps its offset, as it is
     /// along that axis of the work offset.
     ///
     /// # Errors
-    /// The program has turned or scaled its frames itself, or points are those of the tool's tip.
+    /// The program has turned or scaled its frames itself, or points are those of the tool tip.
     pub(super) fn measure_tool(
         &mut self,
         entry: u32,
@@ -253,7 +253,7 @@ impl Exec {
         let tool = self.tool_offset();
         let bare = std::array::from_fn(|axis| here[axis].wrapping_add(tool[axis]));
         let (number, place) = match offset {
-            // Where the axes stand without the tool's offsets, in the coordinates in force.
+            // Where the axes stand without the tool's offsets, in the active coordinates.
             None => (self.modes.work_offset, self.unplace(&bare)),
             Some(number) => {
                 let zero = self.world.work_offset(number);

@@ -49,7 +49,7 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// Half a unit of the last digit, in nanos.
+    /// Half the least increment, in nanos.
     fn half(digits: u8, inch: bool) -> Nanos {
         let unit = POW10[9 - digits.min(9) as usize];
         // An inch is 25.4 mm.
@@ -122,11 +122,11 @@ pub struct Deviation {
 #[derive(Clone, Copy, Debug, Default)]
 struct Measured {
     farthest: Option<Deviation>,
-    /// Whether more than half a unit of the last digit was met.
+    /// Whether more than half the least increment was met.
     beyond: bool,
     /// What the target's own digits resolve, where the comparison is coarser.
     own: Option<Resolution>,
-    /// Whether more than half a unit of the target's own last digit was met.
+    /// Whether more than half the target's own least increment was met.
     coarse: bool,
 }
 
@@ -170,7 +170,7 @@ pub struct Comparison {
     as_inches: bool,
     source_at: [Nanos; AXES],
     target_at: [Nanos; AXES],
-    /// What of the machine's state the target has words for.
+    /// What of the machine's state the target supports.
     seen: Option<Seen>,
     /// How the target says alarms, where that may be another way.
     alarms: Option<Alarms>,
@@ -182,7 +182,7 @@ pub struct Comparison {
     pub events: u64,
     /// The pairs themselves, if somebody asked.
     pairs: Option<Vec<Pair>>,
-    /// Lengths may be off by so much, where that is more than half a unit of the last digit.
+    /// Lengths may be off by so much, where that is more than half the least increment.
     within: Nanos,
     /// How far places are apart, if somebody asked.
     measured: Option<Measured>,
@@ -226,7 +226,7 @@ impl Comparison {
         self.named = names.iter().map(|(number, name)| (*number, named_tool(name))).collect();
     }
 
-    /// The target has words for so much of the machine's state alone: the rest does not count.
+    /// The target supports so much of the machine's state alone: the rest does not count.
     pub fn see(&mut self, seen: Seen) {
         self.seen = (seen != Seen::default()).then_some(seen);
     }
@@ -266,15 +266,15 @@ impl Comparison {
     }
 
     /// From now on it is noted how far places are apart that are found equal, and they are found equal
-    /// within so many nanos of a millimetre, or half a unit of the last digit if that is more. Angles,
+    /// within so many nanos of a millimetre, or half the least increment if that is more. Angles,
     /// feeds and seconds are not lengths. What both sides made by one execution is not measured.
     pub fn measure(&mut self, within: Nanos) {
         self.within = within;
         self.measured.get_or_insert_default();
     }
 
-    /// Notes too whether anything is found equal that is further apart than half a unit of the target's
-    /// own last digit, which is what a translation is held to.
+    /// Notes too whether anything is found equal that is further apart than half the target's own least increment,
+    /// which is what a translation is held to.
     pub fn measure_by(&mut self, own: Resolution) {
         self.measured.get_or_insert_default().own = Some(own);
     }
@@ -289,7 +289,7 @@ impl Comparison {
         self.as_inches = true;
     }
 
-    /// The largest deviation met, and whether any was more than half a unit of the last digit; nothing
+    /// The largest deviation met, and whether any was more than half the least increment; nothing
     /// unless it is measured, and where all places are the same.
     pub fn deviation(&self) -> Option<(Deviation, bool)> {
         self.measured.and_then(|m| m.farthest.map(|farthest| (farthest, m.beyond)))
@@ -326,7 +326,7 @@ impl Comparison {
     }
 
     /// Notes whether feeds and seconds of two events that were found equal are the same to the target's
-    /// own last digit.
+    /// own least increment.
     fn note_values(&mut self, a: &Event, b: &Event) {
         let Some(Measured { own: Some(own), coarse, .. }) = &mut self.measured else { return };
         *coarse |= a.rate.abs_diff(b.rate) > own.feeds(b.inch) as u64;

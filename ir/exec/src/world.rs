@@ -22,7 +22,7 @@ pub struct World {
     pub seed: u32,
     /// Modes at power-on. Every fact is known to a world.
     pub power_on: Modes,
-    /// How corners are taken at power-on, where the control compared has no word for it; `None` is as
+    /// How corners are taken at power-on, where the control compared lacks it; `None` is as
     /// the control at hand does.
     pub path: Option<PathMode>,
     /// Where the axes stand, in machine coordinates.
@@ -31,7 +31,7 @@ pub struct World {
     pub peck_clearance: Nanos,
     /// The control's own lift of the chip-breaking cycle, in millimetres.
     pub break_lift: Nanos,
-    /// How far the machine goes back by itself from where a probe has touched, in millimetres: nothing, but for a
+    /// How far the machine retracts by itself from where a probe has touched, in millimetres: nothing, but for a
     /// control that only plays its machine.
     pub backs_off: Nanos,
     /// Whether the length of the tool in the spindle is that of the last tool change, and none before the first,
@@ -47,7 +47,7 @@ pub struct World {
     /// cycle unless it turns as the tap goes in.
     pub cycles_need_spindle: bool,
     /// Cutter radius compensation of the active side may be switched on again: the next move in the plane goes onto the
-    /// contour anew.
+    /// contour again.
     pub compensation_again: bool,
     /// Under cutter radius compensation a block that goes nowhere is one without a move in the plane, and no more.
     pub looks_over_blocks: bool,
@@ -61,7 +61,7 @@ pub struct World {
     pub increments: Option<Increments>,
     /// Whether the operator's switch for optional stops is on.
     pub optional_stop: bool,
-    /// Angle at which the spindle stops where nothing else is said, degrees.
+    /// Angle at which the spindle stops where nothing else is stated, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
     pub bore_shift: Sideways,
@@ -125,7 +125,7 @@ pub struct Tables {
     pub radii: BTreeMap<u32, Nanos>,
     /// Wear of those radii; where nobody has stated it there is none.
     pub radius_wears: BTreeMap<u32, Nanos>,
-    /// Points of the machine, in machine coordinates, axis by axis.
+    /// Reference points, in machine coordinates, axis by axis.
     pub references: BTreeMap<ReferencePoint, [Option<Nanos>; AXES]>,
     /// Lengths of edges that are no entry on this control and one on the other, by tool and edge.
     pub named_lengths: BTreeMap<(i64, u32), Nanos>,
@@ -220,7 +220,7 @@ impl World {
         world
     }
 
-    /// A shift of program zero that an earlier program left behind, where there is one.
+    /// A shift of program zero that an earlier program left, where there is one.
     pub fn left_over_shift(&self) -> [Nanos; AXES] {
         std::array::from_fn(|axis| self.odd(70_000 + axis as u32, 20))
     }
@@ -266,7 +266,7 @@ impl World {
         renamed(&self.renaming.tools, tool)
     }
 
-    /// A point of the machine, in machine coordinates.
+    /// A reference point, in machine coordinates.
     pub fn reference(&self, point: ReferencePoint) -> [Nanos; AXES] {
         let stated = self.tables.references.get(&point);
         let index = match point {
@@ -288,7 +288,7 @@ impl World {
         (self.seed != 0).then(|| 20.0 + self.odd(150_000_000, 60).abs() as f64 / ONE as f64)
     }
 
-    /// How far apart the zeros of the tool's tip (`true`), or of a tilted plane, and of the linear axes are:
+    /// How far apart the zeros of the tool tip (`true`), or of a tilted plane, and of the linear axes are:
     /// nobody knows but the machine.
     pub fn kinematic_shift(&self, tip: bool) -> [Nanos; 3] {
         let first = if tip { 120_000 } else { 120_008 };
@@ -310,7 +310,7 @@ impl World {
         }
     }
 
-    /// How much of a probing move's way is gone when the probe says so, in billionths; in the plain world, all.
+    /// How much of a probing move's way is gone when the probe triggers, in billionths; in the plain world, all.
     pub fn touched(&self) -> Nanos {
         if self.seed == 0 { ONE } else { ONE / 2 + self.odd(130_000, 100) / 400 }
     }

@@ -1,5 +1,5 @@
 //! Programs that compute: points of two loops within each other, each with a sine and a cosine, executed, and
-//! written out as straight blocks. Beside them the same points as literals.
+//! inlined and unrolled. Beside them the same points as literals.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};

@@ -104,7 +104,7 @@ pub struct Legaliser {
 impl Legaliser {
     /// For a target that writes positions with so many digits after the point (in mm; one more in
     /// inches). `peck_clearance` is the value of the source control's parameter, for peck cycles
-    /// that must be written out.
+    /// that must be expanded.
     pub fn new(caps: &Caps, decimals: u8, peck_clearance: Option<Num>) -> Legaliser {
         let lacks = lacks(caps);
         let target =
@@ -135,7 +135,7 @@ impl Legaliser {
     }
 
     /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes
-    /// are to be run first, what the source's control makes of the words is said alone.
+    /// are to be run first, what the source's control makes of the words is stated alone.
     pub fn frame_increments(
         &mut self,
         program: &mut Program,
@@ -190,7 +190,7 @@ impl Legaliser {
     }
 
     /// What the target is taken to start with, because it has no words to say it: the work offset
-    /// that its only one stands for, and no shift of the origin.
+    /// that its only one stands for, and no G92 shift.
     pub fn taken(&self) -> Modes {
         let only = self.shared.states.ask(|own: &WorkOffsetState| own.only);
         let none = self.shared.states.ask(|own: &OriginShiftState| own.none);
@@ -202,7 +202,7 @@ impl Legaliser {
     }
 
     /// Brings further statements of the main procedure within the target's capabilities. `assumed`
-    /// are the facts taken for granted so far; `lines`: they go along lines alone.
+    /// are the facts assumed so far; `lines`: they go along lines alone.
     pub fn run(
         &mut self,
         stmts: &mut Vec<Stmt>,
@@ -268,7 +268,7 @@ impl Legaliser {
         ran(pass.name, piece.stmts);
     }
 
-    /// The same in the form that is tried first, with all passes behind; `None`, and nothing done, where that has no
+    /// The same in the form that is tried first, with all later passes; `None`, and nothing done, where that has no
     /// sense, or one of them refuses something.
     fn with_first(&mut self, pass: &Pass, first: First, piece: &mut Piece) -> Option<Vec<Diagnostic>> {
         let (mut own, mut kept, mut found) = (self.clone(), piece.stmts.clone(), Vec::new());
@@ -289,7 +289,7 @@ impl Legaliser {
         Some(found)
     }
 
-    /// Notes what cycles and threads behind a piece may rely on that has none itself.
+    /// Notes what cycles and threads after a piece may rely on that has none itself.
     fn follow_cycles(&mut self, piece: &Piece) {
         let states = &mut self.shared.states;
         states.state_mut::<ThreadsState>().said = states.ask(|taps: &TapsState| taps.said);
@@ -336,7 +336,7 @@ impl Legaliser {
     }
 
     /// Whether all that the passes do with lines, for which these statements stand, is to follow them: nothing concerns
-    /// them but a frame that is said as it stands.
+    /// them but a frame that is stated as it stands.
     pub fn follows(&self, stand: &[Stmt], lines: Lines) -> bool {
         let needs = self.needs(stand);
         let framed = || self.shared.states.ask(|own: &ExpandFramesState| own.leaves(stand));
@@ -462,7 +462,7 @@ impl Legaliser {
         needs
     }
 
-    /// Runs the passes that a piece needs, or those of them behind one.
+    /// Runs the passes that a piece needs, or those of them after one.
     #[cold]
     fn run_passes(&mut self, piece: &mut Piece, behind: Option<&'static str>) {
         let first = behind.and_then(|name| PASSES.iter().position(|pass| pass.name == name));

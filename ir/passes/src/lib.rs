@@ -6,7 +6,7 @@
 //! does: what it cannot mend it refuses.
 //!
 //! ```text
-//! --print-after all    shows the program behind each pass that changed it
+//! --print-after all    shows the program after each pass that changed it
 //! ```
 //!
 //! Not here: reading, writing, executing.

@@ -99,11 +99,11 @@ pub(crate) enum ProgramMoment {
 pub(crate) enum Subprograms<'n> {
     /// They stay as they are.
     Keep,
-    /// They get what their callers have in force.
+    /// They get the modes active in their callers.
     Specialise,
-    /// They are written out.
+    /// They are inlined.
     Expand,
-    /// Those with these names are written out.
+    /// Those with these names are inlined.
     ExpandNamed(&'n BTreeSet<Text>),
 }
 
@@ -143,7 +143,7 @@ pub(crate) struct ProgramStep {
 pub(crate) enum Moment {
     /// As the piece comes, before it is known what it needs.
     Arrival,
-    /// What says where things are: frames, offsets, corners. Behind it the tool is followed anew.
+    /// What says where things are: frames, offsets, corners. After it the tool is followed again.
     Placing,
     /// All else that the target lacks.
     Wording,
@@ -171,7 +171,7 @@ pub(crate) struct Step {
 /// Ends a pass: what waits stands last.
 pub(crate) type Finish = fn(&mut Shared, &mut Vec<Stmt>, &mut Vec<Diagnostic>);
 
-/// A form of a pass that is tried on a copy of the piece together with all passes behind it.
+/// A form of a pass that is tried on a copy of the piece together with all passes after it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct First {
     /// Puts the piece in this form; `false`, and nothing done, where that has no sense.
@@ -211,13 +211,13 @@ pub(crate) struct Shared {
     pub(crate) measures: bool,
     /// Which arcs the source's control accepts, if the target's has another rule.
     pub(crate) source_arcs: Option<ArcRule>,
-    /// Whether feeds are said again behind a change of units.
+    /// Whether feeds are stated again after a change of units.
     pub(crate) feed_again: bool,
     /// Whether the target counts F of some moves otherwise than the source.
     pub(crate) times_differ: bool,
     /// Whether any pass wants to know where the tool is.
     pub(crate) follow: bool,
-    /// Where it is, and what is in force.
+    /// Where it is, and what is active.
     pub(crate) walk: Walk,
     /// What holds after each call and label of a program that is kept whole.
     pub(crate) entries: Option<Rc<Known>>,
@@ -260,7 +260,7 @@ pub(crate) struct Piece<'p> {
     pub(crate) needs: u32,
     /// What holds before it: every pass walks from there.
     pub(crate) start: &'p Walk,
-    /// Facts taken for granted so far.
+    /// Facts assumed so far.
     pub(crate) assumed: &'p Modes,
     /// Whether it goes along lines alone, by words from zero.
     pub(crate) lines: Option<Lines>,

@@ -11,7 +11,7 @@ use crate::pass::Pass;
 /// All passes, in the order in which they are run. Each is a constant in its own file. The legaliser, programs that compute
 /// and `--pass` walk this table. Passes without functions here are run by the driver, which tells their names.
 pub const PASSES: &[Pass] = &[
-    // Only when asked for: behind it there is nothing that computes or decides.
+    // Only when asked for: after it there is nothing that computes or decides.
     crate::flow::flatten::PASS,
     // Of a program that is kept whole.
     crate::flow::unused_labels::PASS,
@@ -76,7 +76,7 @@ pub const PASSES: &[Pass] = &[
     crate::modes::one_distance::PASS,
     crate::tools::tool_edge::PASS,
     crate::tools::length_by_hand::PASS,
-    // Behind the lengths, which say what is in force.
+    // After the lengths, which say what is active.
     crate::tools::tool_axis::PASS,
     crate::arcs::cutter_radius::PASS,
     crate::arcs::still_blocks::PASS,
@@ -94,12 +94,12 @@ pub const PASSES: &[Pass] = &[
     crate::holes::expand_cycles::PASS,
     crate::holes::absolute_holes::PASS,
     crate::holes::absolute_holes::ALIKE,
-    // Behind the cycles, which may have been written out with stops of the spindle, and as threads.
+    // After the cycles, which may have been written out with stops of the spindle, and as threads.
     crate::tools::spindle_angle::PASS,
     crate::threads::in_step::PASS,
     crate::holes::expand_patterns::REFORM,
     crate::arcs::expand_turns::PASS,
-    // An expanded cycle may have left an offset that was in its block to take up elsewhere.
+    // An expanded cycle may have left an offset that was in its block to apply elsewhere.
     crate::tools::offset_with_z::PASS,
     crate::modes::one_move::PASS,
     // Afterwards every move names every axis.

@@ -5,7 +5,7 @@ use std::cell::{Cell, RefCell};
 
 use ncc_ir::program::{Program, Stmt};
 
-/// Called with the name of a pass and the statements behind it, of each procedure by itself.
+/// Called with the name of a pass and the statements after it, of each procedure by itself.
 pub type Look = Box<dyn FnMut(&'static str, &[Stmt])>;
 
 thread_local! {

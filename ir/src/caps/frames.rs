@@ -1,11 +1,11 @@
-//! Zeros, frames, and places of the machine.
+//! Zeros, frames, and machine coordinates.
 
 use crate::program::ReferencePoint;
 
 /// What a target can say of zeros and frames.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FrameCaps {
-    /// Number of work offsets that it can name; 0 if it has one, without a word for it.
+    /// Number of work offsets that it can name; 0 if it has one without a name.
     pub work_offsets: u16,
     /// A word for none of its settable work offsets: number 0.
     pub work_offsets_off: bool,
@@ -17,13 +17,13 @@ pub struct FrameCaps {
     pub chain: bool,
     /// A local shift, axis by axis.
     pub local_shift: bool,
-    /// A shift of the origin, by the coordinates that the present point gets.
+    /// A G92 shift, by the coordinates that the present point gets.
     pub origin_shift: bool,
-    /// Words that suspend a shift of the origin and take it up again.
+    /// Words that suspend a G92 shift and restore it.
     pub suspends_shift: bool,
-    /// A shift of the origin, axis by axis.
+    /// A G92 shift, axis by axis.
     pub stated_shift: bool,
-    /// A word that cancels a temporary shift of the origin.
+    /// A word that cancels a G92 shift.
     pub clears_shift: bool,
     /// A rotation in the plane about a point.
     pub rotation: bool,
@@ -31,9 +31,9 @@ pub struct FrameCaps {
     pub scale: bool,
     /// Axes mirrored at a place.
     pub mirror: bool,
-    /// How tilted working planes are said.
+    /// Form of tilted working planes.
     pub tilt: TiltForm,
-    /// Whether no other zero may be set while a rotation, factors or a mirror are in force.
+    /// Whether no other zero may be set while a rotation, factors or a mirror are active.
     pub shut: bool,
 }
 
@@ -52,7 +52,7 @@ pub enum TiltForm {
     Any,
 }
 
-/// What a target can say of places of the machine.
+/// What a target can say of machine coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineCaps {
     /// Moves in machine coordinates.
@@ -61,23 +61,23 @@ pub struct MachineCaps {
     pub length: LengthThere,
     /// Whether a move in machine coordinates is always rapid.
     pub rapid: bool,
-    /// Points of the machine that have a word.
+    /// Reference points that have a word.
     pub references: References,
     /// Whether a rapid move to such a point can go by another point first.
     pub reference_via: bool,
-    /// What becomes of the tool's length behind a move to such a point.
+    /// What becomes of the tool's length after a move to such a point.
     pub reference_length: LengthThere,
     /// Stored positions that can be set to where the axes stand: 1, 2.
     pub stored_positions: [bool; 2],
 }
 
-/// What becomes of the tool's length in a move of the machine's own coordinates, or behind one to a point of the machine.
+/// What becomes of the tool's length in a move of the machine's own coordinates, or after one to a reference point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LengthThere {
     /// Either.
     #[default]
     Either,
-    /// It stays in force.
+    /// It stays active.
     Stays,
     /// It is off.
     Off,
@@ -86,7 +86,7 @@ pub enum LengthThere {
 sides!(LengthThere, Stays, Off, stays);
 
 impl LengthThere {
-    /// Whether it stays: as asked, where either can be said.
+    /// Whether it stays: as asked, where either can be stated.
     pub fn or(self, asked: bool) -> bool {
         match self {
             LengthThere::Either => asked,
@@ -96,7 +96,7 @@ impl LengthThere {
     }
 }
 
-/// Points of the machine that a target has words for, each up to which number; 0 is none.
+/// Reference points that a target supports, each up to which number; 0 is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)] // As [`crate::program::ReferencePoint`].
 pub struct References {

@@ -9,14 +9,14 @@ use crate::program::cycle::{Approach, CycleKind, Shift, Tap};
 /// What a target can say of holes: its cycles and patterns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HoleCaps {
-    /// Cycles that it has words for, by [`crate::program::cycle::CycleKind::name`], each with the return
+    /// Cycles that it supports, by [`crate::program::cycle::CycleKind::name`], each with the return
     /// levels that it can ask for.
     pub cycles: Vec<CycleCap>,
     /// Circles of holes.
     pub circles: bool,
-    /// How a circle's first hole is said.
+    /// Form of a circle's first hole.
     pub circle_start: CircleStart,
-    /// Whether the circle's centre must be program zero and where the tool stands.
+    /// Whether the circle's centre must be program zero and where the tool is.
     pub centre_at_zero_only: bool,
     /// Grids up to this many columns and rows; 0 is none.
     pub grid_upto: u32,
@@ -30,25 +30,25 @@ pub struct HoleCaps {
     pub list_upto: u32,
     /// Patterns can begin at a stated position.
     pub pattern_start: bool,
-    /// Patterns can begin where the tool stands, and may have no holes and no pitch; where not, the
+    /// Patterns can begin where the tool is, and may have no holes and no pitch; where not, the
     /// pitches of lines count positive as well.
     pub pattern_here: bool,
     /// Rows and lines at any angle.
     pub pattern_angle: bool,
-    /// Whether the control begins a line or a grid at the end, or corner, that is nearest to where
-    /// the tool stands: the order is that of the pattern only where the tool stands at its first hole.
+    /// Whether the control begins a line or a grid at the end, or corner, that is nearest to where the tool is:
+    /// the order is that of the pattern only where the tool is at its first hole.
     pub order_by_position: bool,
-    /// Whether hole positions may be incremental while a cycle is in force.
+    /// Whether hole positions may be incremental while a cycle is active.
     pub incremental: bool,
     /// How a cycle says to where it returns.
     pub returns: ReturnsTo,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub measured_anew: bool,
-    /// The initial level of a hole is where the tool stands before its block; else where it stood before the series.
+    /// The initial level of a hole is where the tool is before its block; else where it stood before the series.
     pub level_of_block: bool,
-    /// Behind the end of a cycle no motion is in force.
+    /// After the end of a cycle no motion is active.
     pub end_motion: bool,
-    /// Whether a subprogram cannot leave a cycle in force to its caller.
+    /// Whether a subprogram cannot leave an active cycle to its caller.
     pub end_with_call: bool,
     /// Whether a boring cycle that stops the spindle is an error of the control unless the spindle turns.
     pub bore_needs_spindle: bool,
@@ -56,7 +56,7 @@ pub struct HoleCaps {
     pub approach: Option<Approach>,
 }
 
-/// How the first hole of a circle is said.
+/// Form of the first hole of a circle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CircleStart {
     /// Either.
@@ -98,7 +98,7 @@ pub enum ReturnsTo {
 
 sides!(ReturnsTo, Plane, Level, plane);
 
-/// A cycle that a target has words for.
+/// A cycle that a target supports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CycleCap {
     /// Its kind.
@@ -122,7 +122,7 @@ pub struct CycleCap {
     pub shrinks: bool,
     /// Whether it can say another feed on the way out.
     pub feed_out: bool,
-    /// How tapping and the boring cycles that stop the spindle are said.
+    /// Form of tapping and of the boring cycles that stop the spindle.
     pub form: CycleForm,
     /// Senses of the threads that it cuts.
     pub turns: Vec<Turn>,
@@ -168,13 +168,13 @@ pub enum FeedsOutTo {
 
 sides!(FeedsOutTo, Level, Retract, to_level);
 
-/// How a cycle that drives the spindle is said.
+/// Form of a cycle that drives the spindle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CycleForm {
     /// In any way.
     #[default]
     Any,
-    /// By the spindle, feed and speed in force and parameters of the control: the spindle turns as it
+    /// By the spindle, feed and speed active and parameters of the control: the spindle turns as it
     /// does; a tap's pitch follows from feed and speed; a bore is left in the control's own direction at
     /// its own angle. After a rigid tap the spindle stands.
     Control(Own),

@@ -16,7 +16,7 @@ macro_rules! sides {
                 if $which { $name::$yes } else { $name::$no }
             }
 
-            /// Whether this side can be said.
+            /// Whether this side can be stated.
             pub fn says(self, $which: bool) -> bool {
                 self == $name::Either || self == $name::only($which)
             }
@@ -56,7 +56,7 @@ pub struct Caps {
     pub compensation: CompensationCaps,
     /// Zeros and frames.
     pub frames: FrameCaps,
-    /// Places of the machine.
+    /// Machine coordinates.
     pub machine: MachineCaps,
     /// Tools, and how it changes them.
     pub tools: ToolCaps,

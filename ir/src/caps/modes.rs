@@ -28,7 +28,7 @@ pub struct ModeCaps {
     pub feed_ends_with_mode: bool,
     /// Modes of taking corners, a bit each.
     pub path: u16,
-    /// How it always takes corners, where it has no word for that.
+    /// How it always takes corners, where it lacks that.
     pub only_path: Option<PathMode>,
     /// Whether plain rounding goes as far from the path as the acceleration asks for.
     pub rounds_freely: bool,
@@ -36,7 +36,7 @@ pub struct ModeCaps {
     pub path_in_rapids: bool,
     /// Whether moves that the control makes one have a length of their own.
     pub path_merges: bool,
-    /// Advice that it has words for, each with its value.
+    /// Advice that it supports, each with its value.
     pub advice: Vec<(AdviceKind, u8)>,
     /// Messages to the operator.
     pub messages: bool,

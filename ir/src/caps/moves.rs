@@ -10,19 +10,19 @@ pub struct MoveCaps {
     pub probes: [bool; 4],
     /// Rapid moves that do not go straight, by [`Detour`](crate::program::Detour).
     pub detours: [bool; 2],
-    /// Which way round a rotary axis goes.
+    /// Direction in which a rotary axis turns.
     pub rotary_ways: bool,
     /// Lines by their angle and one coordinate.
     pub line_angles: bool,
-    /// How points by radius and angle are said.
+    /// Form of polar points.
     pub polar: PolarForm,
     /// Rounded and chamfered corners.
     pub corners: Corners,
     /// An exact stop of one move.
     pub exact_stop: bool,
-    /// What is said for one move may stand before its block.
+    /// What is stated for one move may stand before its block.
     pub one_move_apart: bool,
-    /// Straight moves in step with the spindle.
+    /// Straight spindle-synchronised moves.
     pub threads: Threads,
     /// A stop of the spindle at the control's own angle.
     pub own_stop: bool,
@@ -41,7 +41,7 @@ pub struct ArcCaps {
     pub helix: bool,
     /// Arcs of more than one turn.
     pub turns: bool,
-    /// Centres of arcs are said from program zero alone.
+    /// Centres of arcs count from program zero alone.
     pub centres_from_zero: bool,
 }
 
@@ -56,7 +56,7 @@ pub struct CompensationCaps {
     pub refused: Refused,
 }
 
-/// Corners that a target has words for.
+/// Corners that a target supports.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Corners {
     /// Rounded, by their radius.
@@ -74,16 +74,16 @@ impl Corners {
     pub const ALL: Corners = Corners { round: true, leg: true, length: true, arcs: true };
 }
 
-/// Straight moves in step with the spindle that a target has words for.
+/// Straight spindle-synchronised moves that a target supports.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Threads {
     /// As the spindle turns.
     pub plain: bool,
     /// As the spindle turns, and back to where it began.
     pub back: bool,
-    /// With a spindle that the control turns itself; it must have been stopped at an angle before.
+    /// With a spindle that the control turns itself; it must have been oriented before.
     pub turned: bool,
-    /// With a compensating chuck, at feed and speed in force.
+    /// With a compensating chuck, at feed and speed active.
     pub chuck: bool,
     /// The feed word says the pitch, and no feed is known after it.
     pub by_feed: bool,

@@ -11,15 +11,15 @@ pub struct ToolCaps {
     pub data: [bool; 6],
     /// Whether a value can be added to one of that table.
     pub data_added: bool,
-    /// Whether such a value leaves what is in force of the tool as it is, until the entry is called up anew.
+    /// Whether such a value leaves what is active of the tool as it is, until the entry is activated again.
     pub data_kept: bool,
-    /// Whether tools are measured where the axes stand: in the coordinates in force; in those of a work offset.
+    /// Whether tools are measured where the axes stand: in the active coordinates; in those of a work offset.
     pub measured: [bool; 2],
     /// Whose lengths they are.
     pub lengths_of: LengthsOf,
-    /// Where lengths are entries of a table, that of the tool in the spindle can be called up without its number.
+    /// Where lengths are entries of a table, that of the tool in the spindle can be activated without its number.
     pub own_length: bool,
-    /// Whether a tool's length can be stated, and whether one can be added to that in force.
+    /// Whether a tool's length can be stated, and whether one can be added to the active one.
     pub stated_lengths: [bool; 2],
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
@@ -27,7 +27,7 @@ pub struct ToolCaps {
     pub length_at_once: bool,
     /// A program begins with words for no length.
     pub starts_without_length: bool,
-    /// How control of the tool's tip is said.
+    /// Form of tool centre point control.
     pub tip: TipForm,
     /// A tool change leaves the spindle stopped.
     pub change_stops_spindle: bool,
@@ -47,7 +47,7 @@ pub enum LengthsOf {
     Entries,
 }
 
-/// How a target says that points are those of the tool's tip.
+/// How a target says that points are those of the tool tip.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TipForm {
     /// Not at all.

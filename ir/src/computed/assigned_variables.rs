@@ -54,7 +54,7 @@ impl AssignedVariables {
         }
     }
 
-    /// Whether an expression is worth the same before every turn.
+    /// Whether an expression has the same value before every iteration.
     pub fn keeps(&self, value: &Expr) -> bool {
         let Expr::Node(node) = value else { return true };
         match &**node {

@@ -1,5 +1,5 @@
-//! Calls of which the program, or how often, is computed when the program runs: decisions about one number, each with the
-//! call of the program that has it, and an alarm behind them; around them a loop of so many turns, at least one.
+//! Calls of which the program, or the repeat count, is computed when the program runs: branches for one number, each with the
+//! call of the program that has it, and an alarm after them; around them a loop of so many turns, at least one.
 //!
 //! Not here: which programs are asked about (the front-end's), and how a control writes such a call.
 
@@ -13,9 +13,9 @@ use crate::source::Span;
 pub struct ComputedCall<'c> {
     /// The number of the program, where it is computed.
     pub number: Option<&'c Expr>,
-    /// The program, where it is said.
+    /// The program, where it is stated.
     pub name: Option<&'c Text>,
-    /// How often, where that is computed.
+    /// Repeat count, where that is computed.
     pub times: Option<&'c Expr>,
 }
 

@@ -1,5 +1,5 @@
-//! Codes of which the number is computed when the program runs, such as a mode that a macro puts back: decisions about one
-//! variable, each with the mode of one code, and an alarm behind them.
+//! Codes of which the number is computed when the program runs, such as a mode that a macro restores: branches for one
+//! variable, each with the mode of one code, and an alarm after them.
 //!
 //! Not here: which codes are asked about (the front-end's), and how a control writes such a code.
 
@@ -62,7 +62,7 @@ fn without_alarm(control: Control) -> Op {
     }
 }
 
-/// Whether a decision is the last of such a code: what is behind it, no value comes to.
+/// Whether a branch is the last of such a code: no value reaches what is after it.
 pub fn is_last(op: &Op) -> bool {
     matches!(op, Op::Alarm(alarm) if alarm.number.is_none() && *alarm.text == *NO_SUCH_CODE)
 }

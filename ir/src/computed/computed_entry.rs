@@ -1,8 +1,8 @@
-//! Places of the control's tables of which the number is computed when the program runs, such as the zero of fixture `n`:
-//! decisions about one number ([`crate::computed::computed_code`]), each of which reads, or sets, the place that has it.
+//! Entries of the control's tables of which the number is computed when the program runs, such as the zero of fixture `n`:
+//! branches for one number ([`crate::computed::computed_code`]), each of which reads, or sets, the place that has it.
 //!
 //! Where a control has the numbers of these places equally far apart, it says all of it in one statement. Not here: which
-//! numbers there can be (the front-end's, which has shown that no other comes to it), and how a control spells such a place.
+//! numbers there can be (the front-end's, which has shown that no other reaches it), and how a control spells such a place.
 
 use std::convert::Infallible;
 
@@ -48,7 +48,7 @@ pub const fn is_entry(system: &System) -> bool {
     matches!(system, System::WorkOffset { .. } | System::ToolTable { .. })
 }
 
-/// Whether such decisions are about places of tables; else they are about modes.
+/// Whether such branches are about table entries; else they are about modes.
 pub fn is_about_entries(code: &ComputedCode<'_>) -> bool {
     code.codes.iter().any(|(_, op)| matches!(op, Op::SetData(_) | Op::Assign(..)))
 }

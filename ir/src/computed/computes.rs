@@ -47,7 +47,7 @@ pub enum ComputeFeature {
     CallOf,
     /// What [`crate::computed::computed_code`] finds of codes.
     CodeOf,
-    /// What [`crate::computed::computed_entry`] finds, where it only reads places of tables.
+    /// What [`crate::computed::computed_entry`] finds, where it only reads table entries.
     EntriesRead,
     /// What [`crate::computed::computed_entry`] finds, where it sets a place of a table.
     EntriesSet,
@@ -67,7 +67,7 @@ pub enum Remainders {
     MadeWhole,
 }
 
-/// How arguments come to the variables of what is called.
+/// How arguments are passed to the variables of the called program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Handed {
     /// Each letter is a variable of its own, by its number: `A` is 1, `X` is 24.
@@ -170,7 +170,7 @@ pub struct Computes {
     pub exists: bool,
     /// How far apart two numbers are that comparisons do not find equal, where that is more than the least bit.
     pub equal_within: Option<Num>,
-    /// To how many digits behind the point a number is looked at that must be whole, where that is not exactly so.
+    /// To how many digits after the point a number is looked at that must be whole, where that is not exactly so.
     pub whole: Option<u8>,
     /// Its alarms, if a program can give such.
     pub alarms: Option<Alarms>,
@@ -183,7 +183,7 @@ pub struct Computes {
     pub planes_alarm: Option<i64>,
     /// Values of the control's own that a program can ask for.
     pub system: Vec<System>,
-    /// Those of them that are places of tables, each with the control's number of it.
+    /// Those of them that are table entries, each with the control's number of it.
     pub entries: Vec<(System, i64)>,
     /// Whether a condition is worth 1 or 0 wherever a number can stand.
     pub worth: bool,
@@ -199,7 +199,7 @@ pub struct Computes {
     pub functions: Vec<Function>,
     /// Values of the control's own that have a name, of one or of several in a sum.
     pub values: Vec<Expr>,
-    /// With what the names of its variables begin; behind it they are numbers.
+    /// With what the names of its variables begin; after it they are numbers.
     pub prefix: Text,
     /// Of which numbers it has a remainder.
     pub remainders: Remainders,
@@ -211,13 +211,13 @@ pub struct Computes {
     pub increments: [u8; 2],
     /// Whether the angles of an arc sine and an arc tangent lie from 0 to a turn, as the machine may be set.
     pub turn: bool,
-    /// Whether the opposite of a condition can be said.
+    /// Whether the opposite of a condition can be stated.
     pub opposite: bool,
     /// Whether comparisons find real numbers equal that are nearly so.
     pub near: bool,
-    /// Whether blocks in loops and behind labels say every fact that is known there.
+    /// Whether blocks in loops and after labels say every fact that is known there.
     pub restates: bool,
-    /// Whether a decision can be about any blocks; else about one jump or one assignment.
+    /// Whether a branch can be about any blocks; else about one jump or one assignment.
     pub blocks: bool,
     /// Numbers of variables, from and to, that live as long as a call.
     pub local: Vec<[u32; 2]>,
@@ -241,7 +241,7 @@ impl Computes {
         self.statements.contains(&statement)
     }
 
-    /// Whether a decision can be about these statements without blocks of its own.
+    /// Whether a branch can be about these statements without blocks of its own.
     pub fn decides(&self, then: &[Stmt]) -> bool {
         match then {
             [only] if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => true,
@@ -250,7 +250,7 @@ impl Computes {
         }
     }
 
-    /// Places of tables by a computed number, as the target says them in one statement, if these decisions are such and it
+    /// Table entries by a computed number, as the target says them in one statement, if these branches are such and it
     /// does.
     pub fn computed_entry<'c>(&self, control: &'c Control) -> Option<ComputedEntry<'c>> {
         let entry = computed_entry(&computed_code(control)?, &self.entries)?;
@@ -259,7 +259,7 @@ impl Computes {
         self.has(said).then_some(entry)
     }
 
-    /// Whether decisions about one number are one statement of the target's: a code, or places of its tables.
+    /// Whether branches for one number are one statement of the target's: a code, or entries of its tables.
     pub fn says_number(&self, control: &Control) -> bool {
         let Some(code) = computed_code(control) else { return false };
         match is_about_entries(&code) {
@@ -268,7 +268,7 @@ impl Computes {
         }
     }
 
-    /// Whether a variable can be said.
+    /// Whether a variable can be stated.
     pub fn says(&self, var: &Var) -> bool {
         let among = |ranges: &[[u32; 2]], name: &str| {
             let name = name.strip_prefix(&*self.prefix).unwrap_or_default();
@@ -285,7 +285,7 @@ impl Computes {
         }
     }
 
-    /// Whether variables that have numbers can all be said, by the same numbers.
+    /// Whether variables that have numbers can all be stated, by the same numbers.
     fn says_all(&self, range: &Numbers) -> bool {
         let ranges = match range.scope {
             Scope::Local => &self.local,

@@ -60,7 +60,7 @@ fn asks(e: &Expr, at: Span, found: &mut Vec<(System, Span)>) {
     e.parts().for_each(|part| asks(part, at, found));
 }
 
-/// The literals of a program's expressions and decisions, as a control counts them.
+/// The literals of a program's expressions and branches, as a control counts them.
 pub fn literals(program: &Program) -> Vec<f64> {
     let mut found = Vec::new();
     let mut each = |e: &Expr, _: Span| numbers(e, &mut found);
@@ -154,7 +154,7 @@ struct Look {
     main: bool,
     /// What is set anywhere before, in this order.
     set: HashMap<Var, usize>,
-    /// What is set on every way to here; none where no way leads.
+    /// What is set on every path to here; none where no way leads.
     surely: Option<Set>,
     /// The same where jumps to a label further down leave.
     jumps: HashMap<Text, Set>,

@@ -1,4 +1,4 @@
-//! How many digits behind the point values of a program have at most, as its text tells: 0 are whole numbers.
+//! How many digits after the point values of a program have at most, as its text tells: 0 are whole numbers.
 //!
 //! A variable has as many as anything that it is given anywhere; one that is read and may not have been set, or is
 //! given something that has no end, has any number. Whole numbers are exact in binary floats, and stay so; decimals

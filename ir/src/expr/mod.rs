@@ -1,7 +1,7 @@
 //! Expressions: the arguments of statements.
 //!
 //! Nearly every argument of a real program is a literal, so a literal is stored inline and
-//! everything else behind a box. What an expression is worth is in `value`.
+//! everything else after a box. The value of an expression is in `value`.
 //!
 //! ```text
 //! 10.5mm                 a literal, with its unit and its digits
@@ -88,7 +88,7 @@ pub enum Many {
     Numbered(Box<[Numbers]>),
 }
 
-/// Variables whose names are numbers behind a prefix: `{common:R0 to 99}` are `common:R0`, `common:R1` and so on.
+/// Variables whose names are numbers after a prefix: `{common:R0 to 99}` are `common:R0`, `common:R1` and so on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Numbers {
     /// How long they live.
@@ -243,7 +243,7 @@ impl Expr {
         Expr::Node(Box::new(Node::Binary(operator, a, b)))
     }
 
-    /// The sum of two, exact where both are numbers of one unit; else it is said as it stands.
+    /// The sum of two, exact where both are numbers of one unit; else it is stated as it stands.
     pub fn plus(&self, other: &Expr) -> Expr {
         let exact = self.literal().zip(other.literal()).and_then(|(a, b)| a.plus(b));
         exact.map_or_else(|| Expr::binary(Binary::Add, self.operand(), other.operand()), Expr::from)
@@ -255,7 +255,7 @@ impl Expr {
         exact.map_or_else(|| Expr::binary(Binary::Subtract, self.operand(), other.operand()), Expr::from)
     }
 
-    /// It as an operand of another expression: there a number has no unit, and counts in the one in force.
+    /// It as an operand of another expression: there a number has no unit, and counts in the active one.
     pub fn operand(&self) -> Expr {
         match self {
             Expr::Num(n) => Expr::Num(Num { unit: Unit::One, ..*n }),

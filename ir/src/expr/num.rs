@@ -20,7 +20,7 @@ pub enum Unit {
     Mm,
     /// Inches; as a feed, inches a minute.
     Inch,
-    /// A length whose unit is the one in force when the statement runs.
+    /// A length whose unit is the active one when the statement runs.
     Entry,
     /// Degrees; as the feed of a rotary axis, degrees a minute.
     Degree,

@@ -1,10 +1,10 @@
-//! Values that may be none: what a control works out though it passes it over must not fail there.
+//! Values that may be none: what a control computes though it passes it over must not fail there.
 //!
 //! Not here: variables that have no value where they are passed over; a program sets them before.
 
 use crate::expr::{Binary, Expr, Function, Node};
 
-/// Whether a value may be one that cannot be worked out. A control of O words works out an `elseif` that it passes over
+/// Whether a value may be one that cannot be computed. A control of O words computes an `elseif` that it passes over
 /// (LinuxCNC's interpreter, run), and stops if it cannot.
 pub fn may_fail(value: &Expr) -> bool {
     let own = match value {

@@ -34,7 +34,7 @@ pub enum System {
         number: u16,
         /// Along this one.
         axis: Axis,
-        /// The unit that it counts in, whatever is in force.
+        /// The unit that it counts in, whatever is active.
         unit: Option<Units>,
     },
     /// External work offset along an axis: it shifts all work offsets (Fanuc `#5201`).
@@ -47,7 +47,7 @@ pub enum System {
     OriginShift {
         /// Along this one.
         axis: Axis,
-        /// The unit that it counts in, whatever is in force.
+        /// The unit that it counts in, whatever is active.
         unit: Option<Units>,
     },
     /// Whether the G92 shift is active.
@@ -58,12 +58,12 @@ pub enum System {
     TableOffset {
         /// Along this one.
         axis: Axis,
-        /// The unit that it counts in, whatever is in force.
+        /// The unit that it counts in, whatever is active.
         unit: Option<Units>,
     },
     /// Diameter of the tool in the spindle, in the tool table now, with wear (LinuxCNC `#5410`).
     TableDiameter {
-        /// The unit that it counts in, whatever is in force.
+        /// The unit that it counts in, whatever is active.
         unit: Option<Units>,
     },
     /// Value of an entry of the tool table now, active or not (Fanuc `#2201`).

@@ -1,11 +1,11 @@
-//! The units of length that a program's text says, or that were taken for granted where it begins.
+//! The units of length that a program's text says, or that were assumed where it begins.
 //!
-//! Not here: which of them is in force where: that is found on the way through the program.
+//! Not here: which of them is active where: that is found on the way through the program.
 
 use crate::canon::Units;
 use crate::program::{Op, Program, Stmt};
 
-/// Which of them are said anywhere.
+/// Which of them are stated anywhere.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Said {
     /// Millimetres.
@@ -23,7 +23,7 @@ impl Said {
         said
     }
 
-    /// The unit that no other is said beside; none if nothing says any.
+    /// The unit that no other is stated beside; none if nothing says any.
     pub const fn only(self) -> Option<Units> {
         match (self.mm, self.inch) {
             (true, false) => Some(Units::Mm),

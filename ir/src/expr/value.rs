@@ -1,4 +1,4 @@
-//! What an expression is worth: the meaning of its operators and functions.
+//! The value of an expression: the meaning of its operators and functions.
 //!
 //! Numbers are binary floats of 64 bits, as in the controls that compute; angles are degrees. What a control
 //! rounds or compares in a way of its own its front-end says with the functions here. Not here: which value a
@@ -6,7 +6,7 @@
 
 use crate::expr::{Binary, Function, Unary};
 
-/// What an expression is worth, or a variable holds.
+/// The value of an expression or variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     /// Nothing: the variable was never set. As an operand it counts as zero, but `==` and `!=` tell it from
@@ -163,7 +163,7 @@ impl Function {
 /// A function, of two numbers where it has two arguments. `asin` and `atan2` give -90 to 90 and more than -180 to 180
 /// degrees, `acos` 0 to 180; `atan2` has the second axis first; `round` goes to the nearest whole number, halves away
 /// from zero, `floor` down, `ceiling` up, `truncate` towards zero, `roundup` away from zero (Fanuc's `FUP`). `roundto`
-/// rounds, halves away from zero, to as many digits behind the point as its second argument says. `remainder` is that of
+/// rounds, halves away from zero, to as many digits after the point as its second argument says. `remainder` is that of
 /// a division by the second argument, never negative (RS274/NGC's `MOD`; `mod` has the sign of what is divided).
 /// `given` is its argument, which must have a value: nothing is an error there (a named parameter of RS274/NGC).
 /// `bitand`, `bitor` and `bitxor` are of whole numbers, bit by bit. Those of three numbers are in [`near`].

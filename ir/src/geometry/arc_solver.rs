@@ -54,7 +54,7 @@ impl ArcRule {
         short: [MOST_SHORT; 2],
     };
 
-    /// Judges the radii at start and end, in nanos of a millimetre; `inch` is the unit in force.
+    /// Judges the radii at start and end, in nanos of a millimetre; `inch` is the active unit.
     ///
     /// # Errors
     /// [`ArcFault::NoRadius`], [`ArcFault::EndOffCircle`].
@@ -90,7 +90,7 @@ impl Default for ArcRule {
 
 /// What must be known to say what an arc amounts to.
 pub trait Around {
-    /// What is told if it is not.
+    /// What is reported if it is not.
     type Unknown;
 
     /// A length or an angle.
@@ -111,7 +111,7 @@ pub trait Around {
     /// It is not known.
     fn heading(&self) -> Result<[f64; 2], Self::Unknown>;
 
-    /// Which arcs the control accepts, and whether inches are in force.
+    /// Which arcs the control accepts, and whether inches are active.
     fn rule(&self) -> (ArcRule, bool);
 }
 

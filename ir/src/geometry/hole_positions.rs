@@ -13,10 +13,10 @@ use crate::program::cycle::{Along, First, Pattern, Row};
 
 /// What must be known to say where holes are.
 pub trait Here {
-    /// What is told if it is not.
+    /// What is reported if it is not.
     type Unknown;
 
-    /// Where the tool stands in the plane: first axis, second axis.
+    /// Tool position in the plane: first axis, second axis.
     ///
     /// # Errors
     /// It is not known.
@@ -40,7 +40,7 @@ pub trait Here {
     /// It is not known.
     fn value(&self, value: &Expr) -> Result<Nanos, Self::Unknown>;
 
-    /// What is told of a pattern that has no such place.
+    /// What is reported of a pattern that has no such place.
     fn out_of_range(&self) -> Self::Unknown;
 }
 

@@ -1,6 +1,6 @@
-//! The path of a tool's centre beside a contour, in a plane: lines and arcs at the tool's radius.
+//! The tool centre path beside a contour, in a plane: lines and arcs at the tool's radius.
 //!
-//! Each leg of the contour is moved sideways by the radius; a corner away from the tool is gone round by
+//! Each leg of the contour is offset by the radius; a corner away from the tool is gone round by
 //! an arc about it, at one towards the tool both legs end where their paths meet. One leg is held until
 //! the next is known, because a corner may shorten it. The rules are those of RS274/NGC in its present
 //! form (LinuxCNC, `interp_convert.cc` and `interp_queue.cc`; NISTIR 6556, appendix B): how the tool goes
@@ -21,7 +21,7 @@ pub struct Rules {
     pub shallow: f64,
     /// Shortest way round a corner, mm: a shorter one is left out.
     pub least: f64,
-    /// The first move behind the contour goes to the programmed point of the plane, whatever words it has; otherwise
+    /// The first move after the contour goes to the programmed point of the plane, whatever words it has; otherwise
     /// the first that has words of the plane does.
     pub left_at_once: bool,
     /// Whether every leg is looked at for having been turned round, and not only where the interpreter does.
@@ -200,7 +200,7 @@ impl OffsetPath {
     /// The tool cannot go there without cutting into the contour.
     pub fn go_on(&mut self, leg: Leg, to: Spot) -> Result<Corner, Unreachable> {
         let towards_tool = self.side * FRAC_PI_2;
-        // Directions of the contour before the corner and behind it.
+        // Directions of the contour before the corner and after it.
         let before = angle(minus(self.now, self.at)) - towards_tool;
         let behind = match leg {
             Leg::Line { .. } => angle(minus(to, self.at)),

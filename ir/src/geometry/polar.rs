@@ -13,7 +13,7 @@ use crate::program::{Coord, Op, Point, Polar, PoleFrom, PoleWords, SetPole};
 /// The longest radius, 100 km: what is longer is a slip of the pen.
 const LONGEST: Nanos = 100_000_000 * ONE;
 
-/// The pole in force, with the polar words that stay in force.
+/// The active pole, with the polar words that stay active.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pole {
     /// Its plane; `None` while no pole was set and no point was made.
@@ -38,7 +38,7 @@ impl Pole {
 
 /// What must be known to say where a polar point is.
 pub trait About {
-    /// What is told if it is not.
+    /// What is reported if it is not.
     type Unknown;
 
     /// A length or an angle.
@@ -53,22 +53,22 @@ pub trait About {
     /// It is not known.
     fn is_increment(&self, distance: Fact<Distance>) -> Result<bool, Self::Unknown>;
 
-    /// Where the tool stands along an axis.
+    /// Tool position along an axis.
     ///
     /// # Errors
     /// It is not known.
     fn here(&self, axis: Axis) -> Result<Nanos, Self::Unknown>;
 
-    /// The pole in force.
+    /// The active pole.
     ///
     /// # Errors
     /// It is not known.
     fn pole(&self) -> Result<Pole, Self::Unknown>;
 
-    /// What is told where a word is missing, and none is in force.
+    /// What is reported where a word is missing, and none is active.
     fn missing(&self, what: &'static str) -> Self::Unknown;
 
-    /// What is told of a value that no point has.
+    /// What is reported of a value that no point has.
     fn out_of_range(&self, what: &'static str) -> Self::Unknown;
 }
 
@@ -109,13 +109,13 @@ pub fn pole<A: About>(set: &SetPole, plane: Plane, about: &A) -> Result<Pole, A:
     Ok(Pole { plane: Some(plane), at, radius: None, angle: None })
 }
 
-/// Where a polar point is in the plane, and the pole with the words that are in force behind it.
+/// Where a polar point is in the plane, and the pole with the words that are active after it.
 ///
 /// # Errors
 /// What it depends on is not known, or it is nowhere.
 pub fn point<A: About>(polar: &Polar, plane: Plane, about: &A) -> Result<([Nanos; 2], Pole), A::Unknown> {
     if polar.along {
-        // Which pole and which words about it are in force does not matter, and stays as it is.
+        // Which pole and which words about it are active does not matter, and stays as it is.
         return Ok((on_line(polar, plane, about)?, about.pole().unwrap_or_default()));
     }
     let before = about.pole()?;
@@ -146,7 +146,7 @@ pub fn point<A: About>(polar: &Polar, plane: Plane, about: &A) -> Result<([Nanos
     Ok((at, Pole { plane: Some(plane), radius: Some(radius), angle: Some(angle), ..before }))
 }
 
-/// A line that is said by its angle and lies nearer than this to square with the axis of its word ends
+/// A line that is stated by its angle and lies nearer than this to square with the axis of its word ends
 /// anywhere.
 const LEAST_SLOPE: f64 = 1e-4;
 
@@ -215,7 +215,7 @@ pub fn end_of(op: &Op) -> Option<&Point> {
 }
 
 /// Whether a statement is more than one that stands among polar points: it has words of the plane, or
-/// goes where the mode that they are written in need not be in force.
+/// goes where the mode that they are written in need not be active.
 pub fn leaves_points(op: &Op, plane: Option<Plane>) -> bool {
     match op {
         Op::StraightTraverse(m) | Op::StraightFeed(m) => plane.is_none_or(|plane| {

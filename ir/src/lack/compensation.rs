@@ -10,9 +10,9 @@ reasons! {
         Compensation,
         /// Compensation by a computed entry.
         ComputedEntry,
-        /// Compensation by the radius of a tool that is not known.
+        /// Cutter compensation with the radius of an unknown tool.
         ToolUnknown,
-        /// Compensation by the radius of an edge that is no entry.
+        /// Cutter compensation with the radius of an edge that is no entry.
         EdgeWithoutEntry,
         /// Compensation by a diameter that the program states.
         StatedDiameter,
@@ -42,7 +42,7 @@ reasons! {
         EndOfText,
         /// A rotary axis along a contour whose tool centre path ncc computes.
         RotaryAxis,
-        /// Feeds by time along a contour whose tool centre path ncc computes.
+        /// Inverse-time feeds along a contour whose tool centre path ncc computes.
         FeedByTime,
         /// An arc under cutter compensation whose tool centre path ncc computes, where what F counts on it is not known.
         ArcFeedUnknown,

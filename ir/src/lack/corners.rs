@@ -8,7 +8,7 @@ reasons! {
     pub enum CornersLack {
         /// A rounded or chamfered corner.
         Corner,
-        /// A corner beside blocks that can be skipped.
+        /// A corner beside blocks with block skip.
         BesideSkippedBlock,
         /// A corner between moves whose places are known only when the program runs.
         PlacesAtRunTime,

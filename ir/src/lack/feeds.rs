@@ -38,15 +38,15 @@ reasons! {
         RotaryNotPerMinute,
         /// A feed of linear and rotary axes together that is not known here.
         RotaryUnknown,
-        /// A feed by time of a move this long: F has too few digits.
+        /// An inverse-time feed of a move this long: F has too few digits.
         TimeDigits,
-        /// An arc with a feed by time from a place that is not known here.
+        /// An arc with an inverse-time feed from a place that is not known here.
         ArcTimeStartUnknown,
-        /// An arc of several turns with a feed by time.
+        /// An arc of several turns with an inverse-time feed.
         ArcTimeTurns,
-        /// An arc with a feed by time in another block.
+        /// An arc with an inverse-time feed in another block.
         ArcTimeOtherBlock,
-        /// A computed feed by time on an arc.
+        /// A computed inverse-time feed on an arc.
         ArcTimeComputed,
         /// A feed that is not known here and holds after a code of what it counts.
         EndedByModeCode,

@@ -24,7 +24,7 @@ reasons! {
         CallNoTimes,
         /// A call with a repeat count.
         CallSeveralTimes,
-        /// A call that can be skipped.
+        /// A call under block skip.
         CallSkipped,
         /// A computed call, where programs go by name.
         ComputedCall,
@@ -32,7 +32,7 @@ reasons! {
         Return,
         /// A return from a subprogram.
         ReturnFromSubprogram,
-        /// A return that can be skipped, expanded.
+        /// A return under block skip, expanded.
         ReturnSkipped,
         /// The return of a subprogram without its main program.
         ReturnWithoutMain,
@@ -81,17 +81,17 @@ reasons! {
         RepetitionInCycleBlock,
         /// A loop that is left.
         LoopLeft,
-        /// A block that can be skipped.
+        /// A block with block skip.
         SkippedBlock,
-        /// Blocks that can be skipped together.
+        /// Blocks under block skip together.
         SkippedTogether,
         /// A tenth block-skip switch.
         TenthSkipSwitch,
         /// A block under two block-skip levels.
         TwoSkipLevels,
-        /// A block that can be skipped on a switch of its own.
+        /// A block with block skip on a switch of its own.
         OwnSkipSwitch,
-        /// A block that can be skipped and decides what is executed, expanded.
+        /// A block with block skip and decides what is executed, expanded.
         SkippedDecision,
         /// More blocks than a program may grow to.
         TooManyBlocks,

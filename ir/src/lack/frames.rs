@@ -30,7 +30,7 @@ reasons! {
         TiltAfterUnknownEnd,
         /// The end of a tilted plane.
         TiltEnd,
-        /// The tool's axis turned onto a tilted plane.
+        /// The tool's axis swivelled to a tilted plane.
         AxisOntoTilt,
         /// The tool's axis turned apart from its plane.
         AxisApartFromTilt,
@@ -81,7 +81,7 @@ reasons! {
             /// What it is.
             what: OutsideFrame,
         },
-        /// A frame in a block that can be skipped.
+        /// A frame in a block with block skip.
         InSkippedBlock,
         /// A length offset that waits in a turned frame.
         LengthInTurnedFrame,

@@ -6,11 +6,11 @@ reasons! {
     /// Canned cycles and holes that a target lacks.
     #[derive(Clone, Debug, PartialEq, Eq)]
     pub enum HolesLack {
-        /// A cycle called in a block that can be skipped.
+        /// A cycle called in a block with block skip.
         CycleInSkippedBlock,
         /// A skippable cycle after one without a hole.
         SkippedAfterCycleWithoutHole,
-        /// A cycle whose call can be skipped and its holes cannot.
+        /// A cycle whose call is under block skip and its holes cannot.
         SkippedCallOnly,
         /// A cycle that is not known.
         CycleUnknown,
@@ -20,7 +20,7 @@ reasons! {
         HolesOfUnknownCycle,
         /// A rotary axis in a canned cycle.
         RotaryAxis,
-        /// A hole where the tool stands, in incremental coordinates.
+        /// A hole where the tool is, in incremental coordinates.
         IncrementalHoleHere,
         /// A position in a unit that is not known.
         PositionUnitUnknown,
@@ -124,7 +124,7 @@ reasons! {
         ActiveOverToolChange,
         /// A tool change while a canned cycle is active.
         ToolChangeInCycle,
-        /// A level for holes from where the tool stands before any absolute Z.
+        /// A level for holes from where the tool is before any absolute Z.
         LevelBeforeZ,
         /// Axis words that move as the caller does, after the end of a cycle.
         CallersMotionAfterCycle,

@@ -28,9 +28,9 @@ reasons! {
         ProbingFeedUnknown,
         /// Positioning from one side: how far beyond is the machine's.
         OneSide,
-        /// A position by the caller's motion, after a return to a point of the machine.
+        /// A position by the caller's motion, after a return to a reference point.
         CallersMotionAfterReturn,
-        /// A return to a point of the machine after which Z moves by a length that is not stated again.
+        /// A return to a reference point after which Z moves by a length that is not stated again.
         LengthAfterReturn,
         /// An incremental Z after a move to a position in machine coordinates, with the tool's length.
         IncrementAfterMachineMove,
@@ -56,7 +56,7 @@ reasons! {
         IntermediateRotary,
         /// A move to a position that is stored in the control.
         StoredPosition,
-        /// A move to this point of the machine.
+        /// A move to this reference point.
         FurtherPoint,
         /// A move to the machine's zero.
         MachineZero,

@@ -23,7 +23,7 @@ reasons! {
         GridFromPosition,
         /// A bolt circle.
         Circle,
-        /// A bolt circle about where the tool stands.
+        /// A bolt circle about where the tool is.
         CircleAboutTool,
         /// A bolt circle by its first hole.
         CircleByFirstHole,

@@ -8,7 +8,7 @@ reasons! {
     pub enum PolarLack {
         /// A point in polar coordinates.
         Point,
-        /// A point in polar coordinates in a block that can be skipped.
+        /// A point in polar coordinates in a block with block skip.
         PointSkipped,
         /// A point in polar coordinates in a plane that is not known.
         PointPlaneUnknown,

@@ -24,7 +24,7 @@ reasons! {
         SpeedLimit,
         /// A limit of the spindle after the surface speed that it is for.
         LimitAfterSurfaceSpeed,
-        /// A limit of the spindle under a speed in turns.
+        /// A limit of the spindle under a speed in rev/min.
         LimitUnderTurns,
         /// A limit that is not known to be active.
         LimitUnknown,

@@ -25,9 +25,9 @@ reasons! {
         DwellAtOneEnd,
         /// A rigid tap that dwells when the spindle has turned round.
         DwellAfterReversal,
-        /// A tapping cycle in a block that can be skipped.
+        /// A tapping cycle in a block with block skip.
         SkippedTap,
-        /// The end of a tapping cycle that can be skipped.
+        /// The end of a tapping cycle under block skip.
         SkippedTapEnd,
         /// A spindle that reverses while a boring cycle is active.
         BoringReversal,
@@ -41,7 +41,7 @@ reasons! {
         BeforeReturn,
         /// A feed after a thread that is not known.
         FeedAfterUnknown,
-        /// A feed after a thread, in a block that can be skipped.
+        /// A feed after a thread, in a block with block skip.
         SkippedFeedAfter,
         /// A rigid thread without its return.
         NoReturn,
@@ -51,7 +51,7 @@ reasons! {
         Chuck,
         /// A thread with a compensating chuck in this form.
         ChuckForm,
-        /// A rigid thread whose spindle has not been stopped at an angle before it.
+        /// A rigid thread whose spindle has not been oriented before it.
         NotOriented,
         /// A rigid thread that is not left as it was entered.
         LeftDifferently,

@@ -44,7 +44,7 @@ reasons! {
         TipControl,
         /// Tool centre point control after an end of it that may have none.
         TipAfterUnknownEnd,
-        /// Tool centre point control in a block that can be skipped.
+        /// Tool centre point control in a block with block skip.
         TipSkipped,
         /// Tool centre point control without a length that is known.
         TipLengthUnknown,

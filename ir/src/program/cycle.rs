@@ -1,6 +1,6 @@
 //! Canned cycles in neutral geometry.
 //!
-//! A cycle is called up by a statement, then made at each following hole position until it is
+//! A cycle is activated by a statement, then made at each following hole position until it is
 //! ended. `passes::expand_cycles` is the definition of its moves.
 
 use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn, Units};
@@ -34,7 +34,7 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// Whether its holes are made at the feed that the program has in force.
+    /// Whether its holes are made at the feed that the program has active.
     pub fn relies_on_feed(&self) -> bool {
         let stated = matches!(&self.kind, CycleKind::Tap(tap) if matches!(tap.pitch, Pitch::Stated(_)));
         self.feed.is_none() && !stated
@@ -98,7 +98,7 @@ pub enum CycleKind {
     Bore {
         /// Seconds at the bottom, if any.
         dwell: Option<Expr>,
-        /// Feed on the way out, where it is another. Which feed is in force after the cycle is then
+        /// Feed on the way out, where it is another. Which feed is active after the cycle is then
         /// not known.
         feed_out: Option<Expr>,
         /// Whether the feed goes on to where the tool is left; else from the retract plane it is rapid.
@@ -106,7 +106,7 @@ pub enum CycleKind {
     },
     /// Cut a thread with a tap: in at the pitch, dwell, out with the spindle turned round.
     ///
-    /// Without a chuck the control turns the spindle itself: it stands on the way to the hole and out
+    /// Without a chuck the control turns the spindle itself: it is stopped on the way to the hole and out
     /// of it, whatever the program has said before.
     Tap(Box<Tap>),
     /// Feed to the bottom, dwell, stop the spindle in an orientation, shift the tool off the wall, rapid
@@ -116,7 +116,7 @@ pub enum CycleKind {
     BoreStop(BoreStop),
 }
 
-/// Depth of the peck behind one of a depth, where each is less than the one before by `less`, and none less than
+/// Depth of the peck after one of a depth, where each is less than the one before by `less`, and none less than
 /// `peck`.
 pub fn next_peck(before: Nanos, peck: Nanos, less: Option<Nanos>) -> Nanos {
     less.map_or(peck, |less| before.saturating_sub(less).max(peck))
@@ -130,7 +130,7 @@ pub struct Tap {
     /// The thread's pitch.
     pub pitch: Pitch,
     /// Whether a compensating chuck makes good what feed and spindle are apart, and the spindle turns
-    /// already; else the axis goes in step with it.
+    /// already; else the axis goes synchronised with it.
     pub chuck: bool,
     /// Seconds at the bottom, if any.
     pub dwell: Option<Expr>,
@@ -185,7 +185,7 @@ pub enum Shift {
 /// A distance that some controls have as a word and others as a machine parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Clearance {
-    /// Said by the program, or taken for granted by the translation.
+    /// Said by the program, or assumed by the translation.
     Stated(Expr),
     /// The control's own parameter; its value belongs to the world.
     Parameter,
@@ -195,7 +195,7 @@ pub enum Clearance {
 }
 
 /// A clearance that grows with the hole: a fiftieth of its depth, but no less than 0.6 mm and no more than 7 mm. The
-/// depth is in the unit in force.
+/// depth is in the active unit.
 pub fn clearance_by_depth(hole: &Expr, units: Units) -> Expr {
     let length = |tenths: i64| {
         let mm = Num { mantissa: tenths, scale: 1, unit: Unit::One, point: true }.trimmed();
@@ -210,7 +210,7 @@ pub fn clearance_by_depth(hole: &Expr, units: Units) -> Expr {
     of(Function::Min, of(Function::Max, length(6), part), length(70))
 }
 
-/// The way to a hole, from where the tool stands to the retract plane over it.
+/// The way to a hole, from where the tool is to the retract plane over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Approach {
     /// In the plane first, at the present level (Fanuc).
@@ -220,18 +220,18 @@ pub enum Approach {
     /// To the retract plane first, from below and from above, then in the plane.
     RetractFirst,
     /// As [`Approach::RaiseFirst`] to the first of a series of holes; from a hole that was left no higher
-    /// than the next one's retract plane, straight to the level of return above that one (LinuxCNC).
+    /// than the next one's retract plane, straight to the return level above that one (LinuxCNC).
     ClearFirst,
 }
 
 /// How the way to a hole begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leg {
-    /// To the retract plane where the tool stands, then in the plane.
+    /// To the retract plane where the tool is, then in the plane.
     Level,
-    /// In the plane, at the level where the tool stands.
+    /// In the plane, at the level where the tool is.
     Aside,
-    /// Straight to the level of return above the hole.
+    /// Straight to the return level above the hole.
     Slant,
 }
 
@@ -360,12 +360,12 @@ impl CycleKind {
     }
 }
 
-/// A pattern of hole positions, made with the cycle in force.
+/// A pattern of hole positions, made with the active cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
     /// Holes on a circle, counter-clockwise for a positive step.
     Circle {
-        /// Centre in the plane; `None` is where the tool stands.
+        /// Centre in the plane; `None` is where the tool is.
         centre: Option<[Coord; 2]>,
         /// Position of the first hole.
         first: First,
@@ -376,7 +376,7 @@ pub enum Pattern {
     },
     /// Holes on a straight line.
     Line {
-        /// Where it begins; `None` is where the tool stands.
+        /// Where it begins; `None` is where the tool is.
         start: Option<[Coord; 2]>,
         /// Its direction in the plane, degrees from the first axis, counter-clockwise.
         angle: Expr,
@@ -391,7 +391,7 @@ pub enum Pattern {
     List(Vec<Point>),
     /// Rows of holes.
     Grid {
-        /// The first hole; `None` is where the tool stands.
+        /// The first hole; `None` is where the tool is.
         start: Option<[Coord; 2]>,
         /// Direction of a row and pitch along it, signed.
         columns: Row,

@@ -60,14 +60,14 @@ pub enum Slot {
         /// Its plane.
         plane: Fact<Plane>,
         /// From program zero along X, Y and Z, of which the two of the plane count; one that is missing
-        /// is where the tool stands.
+        /// is where the tool is.
         centre: Box<[Option<Expr>; 3]>,
-        /// Degrees, counter-clockwise positive; an increment is added to the angle in force.
+        /// Degrees, counter-clockwise positive; an increment is added to the active angle.
         angle: Coord,
     },
     /// `SET_SCALE`
     Scale {
-        /// From program zero along X, Y and Z; one that is missing is where the tool stands.
+        /// From program zero along X, Y and Z; one that is missing is where the tool is.
         centre: Box<[Option<Expr>; 3]>,
         /// Factors along X, Y and Z, more than zero; one that is missing is 1.
         factors: Box<[Option<Expr>; 3]>,
@@ -84,7 +84,7 @@ pub enum Slot {
 /// other slot is filled with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tilt {
-    /// Its zero, in the coordinates that are in force without it; one that is missing is 0.
+    /// Its zero, in the coordinates that are active without it; one that is missing is 0.
     pub origin: [Option<Expr>; 3],
     /// The axes about which it is turned, one after the other: each is the one that the turns before have
     /// made of it.

@@ -39,7 +39,7 @@ macro_rules! miscellaneous {
     };
 }
 
-/// How the control conducts its moves: corners, which way round axes turn, and advice; what is put into the corner behind the next
+/// How the control conducts its moves: corners, the direction in which axes turn, and advice; what is put into the corner after the next
 /// one. What the words of the moves that follow
 /// mean, where the axes stand and which tool is meant stay as they are. Lengths may belong to it.
 #[macro_export]
@@ -95,7 +95,7 @@ macro_rules! frames {
     };
 }
 
-/// Moves to where the machine alone knows, behind which the program does not know where these axes
+/// Moves to where the machine alone knows, after which the program does not know where these axes
 /// stand, and values put into the control's tables. What bare axis words do, the feed and the cycle
 /// stay as they are.
 #[macro_export]
@@ -119,7 +119,7 @@ macro_rules! moves {
     };
 }
 
-/// A cycle is called up, executed where its statement stands, or at the places of a pattern. Behind a
+/// A cycle is activated, executed where its statement stands, or at the places of a pattern. After a
 /// pattern or a hole the tool stands where the cycle left it, which is not in their words alone.
 #[macro_export]
 macro_rules! drilling {
@@ -128,8 +128,8 @@ macro_rules! drilling {
     };
 }
 
-/// Where the program goes another way than straight on: nothing that was known before need hold
-/// behind it.
+/// Where control flow leaves the straight line: nothing that was known before need hold
+/// after it.
 #[macro_export]
 macro_rules! flow {
     () => {

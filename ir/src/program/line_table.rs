@@ -98,7 +98,7 @@ impl Row {
         self.form & FEED != 0
     }
 
-    /// Whether another one says the same line; of the feeds that they state nothing is said.
+    /// Whether another one says the same line; of the feeds that they state nothing is stated.
     #[inline(always)]
     pub fn says_the_same(&self, other: &Row) -> bool {
         self.mantissas == other.mantissas && (self.form ^ other.form) & SAME == 0
@@ -124,7 +124,7 @@ impl Row {
         self.form |= (NAMED | u32::from(point) << 4 | u32::from(scale)) << (BITS * axis);
     }
 
-    /// Has it go at the feed in force, or in rapid.
+    /// Has it go at the active feed, or in rapid.
     #[inline(always)]
     pub fn set_motion(&mut self, feed: bool) {
         self.form |= if feed { 0 } else { TRAVERSE };
@@ -154,7 +154,7 @@ impl Row {
         number != UNNUMBERED
     }
 
-    /// Appends its statements: its line by words of this unit and distance mode, behind the feed that it states.
+    /// Appends its statements: its line by words of this unit and distance mode, after the feed that it states.
     #[inline]
     pub fn unpack(
         &self,
@@ -267,7 +267,7 @@ impl LineTable {
         (self.rows.len() + self.feeds.len(), self.rows.len())
     }
 
-    /// What passes are told of them at once.
+    /// What passes ask of all of them at once.
     pub fn lines(&self) -> Lines {
         Lines { axes: self.rows.iter().fold(0, |axes, row| axes | u16::from(row.axes())) }
     }
@@ -301,7 +301,7 @@ impl LineTable {
 
     /// Statements that stand for all of them before somebody who changes none: the first line of each kind, the last one
     /// that names each axis or states a feed, and the last ones of all. Each is one of the table's, in its order, so that
-    /// every kind of statement is met, and what the table leaves in force and the way on which it ends are left.
+    /// every kind of statement is met, and what the table leaves active and the way on which it ends are left.
     pub fn stand_in(&self) -> Vec<Stmt> {
         let (mut kinds, mut met) = (0u64, 0u8);
         let mut stands: Vec<usize> = Vec::new();
@@ -534,7 +534,7 @@ mod tests {
         assert!(!same.says_the_same(&table(&other)));
     }
 
-    /// What is left in force, and the kinds that are met, are those of all statements.
+    /// What is left active, and the kinds that are met, are those of all statements.
     #[test]
     fn a_few_statements_stand_for_all() {
         for seed in 0..50 {

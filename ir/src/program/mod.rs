@@ -59,7 +59,7 @@ use crate::source::Span;
 pub struct Program {
     /// What the text calls it.
     pub name: ProgramName,
-    /// Facts that were taken for granted because the program relies on them and never says them.
+    /// Facts that were assumed because the program relies on them and never says them.
     pub assumed: Modes,
     /// `procedures[0]` is the main procedure.
     pub procedures: Vec<Procedure>,
@@ -90,12 +90,12 @@ pub struct Procedure {
     /// A title, if it has one.
     pub title: Option<Text>,
     /// Parameters, in the order of a call's arguments. One that all procedures see is the caller's variable itself: the
-    /// call gives it that variable's value, and an assignment behind the call, in its block, gives it back.
+    /// call gives it that variable's value, and an assignment after the call, in its block, gives it back.
     pub parameters: Vec<Var>,
-    /// What the parameters hold, in their order, where that is said; else any number. A call has converted what it
+    /// What the parameters hold, in their order, where that is stated; else any number. A call has converted what it
     /// hands over.
     pub kinds: Vec<Type>,
-    /// What is said of it as a whole, in the order in which it is said.
+    /// What is said of it as a whole, in the order in which it is stated.
     pub attributes: Vec<Attribute>,
     /// What it does.
     pub body: Vec<Stmt>,
@@ -104,10 +104,10 @@ pub struct Procedure {
 /// What is said of a procedure as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attribute {
-    /// `gives-back`: behind each call the modes, the work offset and the chain of frames are those that were in force
+    /// `gives-back`: after each call the modes, the work offset and the chain of frames are those that were active
     /// before it. The statements that say so stand there (the pass `restored_modes`).
     GivesBack,
-    /// `runs-through`: advice to stop behind none of its blocks where the operator has the control stop behind each.
+    /// `runs-through`: advice to stop after none of its blocks where the operator has the control stop after each.
     RunsThrough,
     /// `not-shown`: advice not to show its blocks.
     NotShown,
@@ -201,9 +201,9 @@ pub enum Op {
     /// coordinate chain.
     SetSlot(Box<Slot>),
     /// `SET_POSITION`: from here on, the present point has these coordinates in the work offset with the
-    /// shift of the origin, which is changed so; the local shift of the axes named is over.
+    /// G92 shift, which is changed so; the local shift of the axes named is over.
     SetPosition(Box<[Option<Expr>; AXES]>),
-    /// `USE_ORIGIN_SHIFT`: off, there is no shift of the origin from here on, and its numbers are kept; on, it
+    /// `USE_ORIGIN_SHIFT`: off, no G92 shift is active from here on, and its numbers are kept; on, it
     /// is again what it was then. What is said of it in between takes the place of what was kept.
     UseOriginShift(bool),
     /// `USE_MACHINE_COORDINATES`: words of the straight move that follows in this block are machine
@@ -213,15 +213,15 @@ pub enum Op {
         length: bool,
     },
     /// `PROBE`: the straight move at feed that follows in this block is NIST's `STRAIGHT_PROBE`: it ends where
-    /// the probe says so. Where that is, along the axes that it names, no program knows.
+    /// the probe triggers. Where that is, along the axes that it names, no program knows.
     Probe(Probe),
     /// `DETOUR`: the rapid straight move that follows in this block goes another way than straight.
     Detour(Detour),
-    /// `USE_TOOL_CENTRE_POINT`: whether points are those of the tool's tip, which the control keeps there
+    /// `USE_TOOL_CENTRE_POINT`: whether points are those of the tool tip, which the control keeps there
     /// while rotary axes turn the tool or the work. Moves nothing. Where the axes stand in the program's
-    /// coordinates behind it, the machine alone knows.
+    /// coordinates after it, the machine alone knows.
     UseToolCentrePoint(bool),
-    /// `ORIENT_TOOL_AXIS`: rotary axes go to where the tool stands upright on the tilted plane. Which way,
+    /// `ORIENT_TOOL_AXIS`: rotary axes go to where the tool is upright on the tilted plane. Which way,
     /// and what the linear axes do meanwhile, is the machine's.
     OrientToolAxis(Option<Toward>),
     /// `SET_OFFSET_DATA` or `SET_TOOL_DATA`: puts values into the control's tables.
@@ -240,7 +240,7 @@ pub enum Op {
     SetMotionControlMode(Box<PathControl>),
     /// `EXACT_STOP`: the move that follows in this block ends in an exact stop.
     ExactStop,
-    /// `TURN_ROTARY_AXES`: which way round A, B and C go in the straight move that follows in this block, whose
+    /// `TURN_ROTARY_AXES`: the direction in which A, B and C turn in the straight move that follows in this block, whose
     /// words say angles of one turn for them. Where the axis then stands is that angle.
     TurnRotaryAxes([Option<RotaryWay>; 3]),
     /// `ROUND_CORNER`, `CHAMFER_CORNER` or `CHAMFER_CORNER_BY_LENGTH`: the corner between the move that follows
@@ -266,7 +266,7 @@ pub enum Op {
     /// one before differs, and a turning spindle needs another before anything moves.
     SetSpindleMode(SpindleMode),
     /// `LIMIT_SPINDLE_SPEED`: no more than so many rev/min under a surface speed, from here on. Whether it
-    /// counts for a speed in turns as well differs (a Sinumerik's does under G97, those of a Fanuc and of
+    /// counts for a speed in rev/min as well differs (a Sinumerik's does under G97, those of a Fanuc and of
     /// LinuxCNC do not), so a spindle that turns is given no speed above it.
     LimitSpindleSpeed(Expr),
     /// `SELECT_TOOL`
@@ -275,13 +275,13 @@ pub enum Op {
     SelectToolByName(Text),
     /// `CHANGE_TOOL`: to the selected tool.
     ChangeTool,
-    /// `USE_TOOL_LENGTH_OFFSET`: entry of the length table, 0 for none. Moves nothing; taken up
+    /// `USE_TOOL_LENGTH_OFFSET`: entry of the length table, 0 for none. Moves nothing; applied
     /// with the next move of the drilling axis (Z).
     UseToolLengthOffset(Expr),
     /// `USE_TOOL_LENGTH`, `ADD_TOOL_LENGTH`, `ADD_TOOL_LENGTH_OFFSET`: a length that is no entry of the table.
     UseToolLength(Box<ToolLength>),
     /// `USE_TOOL_EDGE`: length of an edge of the tool in the spindle, 0 for none. Moves nothing;
-    /// taken up with the next move of the drilling axis (Z). Edge 1 of a tool is the entry of the
+    /// applied with the next move of the drilling axis (Z). Edge 1 of a tool is the entry of the
     /// length table with the tool's number.
     UseToolEdge {
         /// Its number.
@@ -297,7 +297,7 @@ pub enum Op {
     StopSpindleTurning,
     /// `ORIENT_SPINDLE`: stops it at an angle in degrees; `None` is the machine's own.
     OrientSpindle(Option<Expr>),
-    /// `MACHINE_FUNCTION`: switches something of the machine that no dialect has a word for, by a name
+    /// `MACHINE_FUNCTION`: switches something of the machine that no dialect supports, by a name
     /// that means the same on every machine. No axis moves, no tool changes.
     MachineFunction(Text),
     /// `FLOOD_ON`
@@ -316,7 +316,7 @@ pub enum Op {
     /// `SYNCHRONISED_FEED`: NIST's `START_SPEED_FEED_SYNCH`, `STRAIGHT_FEED` and `STOP_SPEED_FEED_SYNCH`
     /// at once.
     SynchronisedFeed(Box<Synchronised>),
-    /// `GO_TO_REFERENCE`: rapid move to a point of the machine. What bare axis words do afterwards is
+    /// `GO_TO_REFERENCE`: rapid move to a reference point. What bare axis words do afterwards is
     /// as before it.
     GoToReference(Box<Reference>),
     /// `ARC_FEED`
@@ -328,17 +328,17 @@ pub enum Op {
     SetPole(Box<SetPole>),
     /// `POLAR`: a move to a point by radius and angle.
     Polar(Box<Polar>),
-    /// `POSITION`: axis words that do whatever motion is in force.
+    /// `POSITION`: axis words that do whatever motion is active.
     Position(Move),
-    /// A stretch of straight moves and feeds, for which statements in front of it and behind it stand
+    /// A stretch of straight moves and feeds, for which statements in front of it and after it stand
     /// ([`PackedLines`]). No text has it: it is written as its statements.
     Lines(Shared<PackedLines>),
 
     /// `START_CYCLE`: calls a cycle up; makes no hole yet.
     StartCycle(Box<Cycle>),
-    /// `HOLE`: the cycle in force at a position.
+    /// `HOLE`: the active cycle at a position.
     Hole(Move),
-    /// `CIRCLE_PATTERN`, `LINE_PATTERN`, `RECTANGULAR_LAYOUT` or `POSITION_LIST`: the cycle in force
+    /// `CIRCLE_PATTERN`, `LINE_PATTERN`, `RECTANGULAR_LAYOUT` or `POSITION_LIST`: the active cycle
     /// at each position.
     Pattern(Box<Pattern>),
     /// `END_CYCLE`
@@ -350,7 +350,7 @@ pub enum Op {
     OptionalProgramStop,
     /// `PROGRAM_END`
     ProgramEnd,
-    /// `BEGIN_AGAIN`: the main program begins anew, for ever. Nothing of the control is reset.
+    /// `BEGIN_AGAIN`: the main program begins again, for ever. Nothing of the control is reset.
     BeginAgain,
     /// `MESSAGE`: text for the operator.
     Message(Text),
@@ -378,14 +378,14 @@ pub enum Op {
     Goto(Text),
     /// A label, the target of jumps.
     Label(Text),
-    /// `LEAVE`: goes behind the innermost body that is executed again and again.
+    /// `LEAVE`: goes after the innermost body that is executed again and again.
     Leave,
     /// `NEXT_TURN`: goes to its next turn.
     NextTurn,
 }
 
 impl Op {
-    /// Whether a length is called up, or off, which many controls take up with the next command of Z.
+    /// Whether a length is activated, or off, which many controls apply with the next command of Z.
     pub const fn calls_length(&self) -> bool {
         matches!(self, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
     }
@@ -455,9 +455,9 @@ pub enum Control {
     Repeat { times: Expr, body: Vec<Stmt> },
     /// Endless, left by a jump or the program's end.
     Loop { body: Vec<Stmt> },
-    /// Tested before each turn.
+    /// Tested before each iteration.
     While { condition: Expr, body: Vec<Stmt> },
-    /// Tested behind each turn, and left when it holds.
+    /// Tested after each iteration, and left when it holds.
     Until { condition: Expr, body: Vec<Stmt> },
     /// Counted.
     For { variable: Var, from: Expr, to: Expr, step: Expr, body: Vec<Stmt> },
@@ -466,7 +466,7 @@ pub enum Control {
 }
 
 impl Control {
-    /// Its bodies: of a decision what is executed where it holds and where it does not, else the one.
+    /// Its bodies: of a branch what is executed where it holds and where it does not, else the one.
     pub fn bodies(&self) -> impl Iterator<Item = &Vec<Stmt>> {
         let (first, second) = match self {
             Control::Repeat { body, .. }

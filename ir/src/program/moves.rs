@@ -54,16 +54,16 @@ impl Point {
 /// A straight move, or hole position.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Move {
-    /// Where to.
+    /// End point, in program coordinates.
     pub to: Point,
     /// Whether the block itself says the motion code. A back-end that inherits it need not.
     pub said: bool,
 }
 
-/// A straight move in step with the spindle, as threads are cut.
+/// A straight spindle-synchronised move, as threads are cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Synchronised {
-    /// Where to.
+    /// End point, in program coordinates.
     pub to: Point,
     /// How far the axis goes in a turn.
     pub pitch: Pitch,
@@ -83,7 +83,7 @@ pub struct Synchronised {
 pub enum Pitch {
     /// So far, positive.
     Stated(Expr),
-    /// As feed and speed in force say.
+    /// As feed and speed active say.
     Feed,
 }
 

@@ -7,8 +7,8 @@
 //! Of words that are computed, the numbers alone are packed; the rest of them is a [`WordShape`], of which there are few.
 //!
 //! A program that is kept whole has a million of them between two statements of control, and no step but writing and
-//! execution looks at each. Whoever packs a stretch leaves statements of it in front and behind that stand for it: those in
-//! front have each kind of word that it has, and those behind say all again that it leaves in force. So what follows a
+//! execution looks at each. Whoever packs a stretch leaves statements of it in front and after that stand for it: those in
+//! front have each kind of word that it has, and those after say all again that it leaves active. So what follows a
 //! program may go past it.
 //!
 //! Not here: how they are packed (`packing`), and which stretches are (the driver).
@@ -34,7 +34,7 @@ pub struct PackedLines {
     pub(super) blocks: u32,
 }
 
-/// What words mean that leave it to what is in force, where that is known.
+/// What words mean that leave it to what is active, where that is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct InForce {
     pub(super) unit: Unit,
@@ -52,7 +52,7 @@ impl InForce {
 }
 
 impl PackedLines {
-    /// Puts in what is in force where the moves leave it to that.
+    /// Puts in what is active where the moves leave it to that.
     pub fn settle(&mut self, units: Option<Units>, distance: Option<Distance>) {
         self.in_force.unit = match (self.in_force.unit, units) {
             (Unit::Entry, Some(Units::Mm)) => Unit::Mm,
@@ -67,7 +67,7 @@ impl PackedLines {
         Arc::ptr_eq(&self.bytes, &other.bytes)
     }
 
-    /// Whether what is in force has made increments of them: then no moves behind them say where they leave the tool.
+    /// Whether what is active has made increments of them: then no moves after them say where they leave the tool.
     pub fn are_increments(&self) -> bool {
         self.in_force.distance == Fact::Known(Distance::Incremental)
     }

@@ -18,7 +18,7 @@ const JOINED: u8 = 1 << 3;
 const NUMBERED: u8 = 1 << 4;
 const AXIS: u8 = 1 << 5;
 
-/// Kinds of statements, and of the note that the words behind it have another unit or distance; with [`SAID`], that they
+/// Kinds of statements, and of the note that the words after it have another unit or distance; with [`SAID`], that they
 /// have other shapes.
 const FEED: u8 = 0;
 const TRAVERSE: u8 = 1;
@@ -47,7 +47,7 @@ fn packs_number(value: &Expr) -> bool {
     value.literal().is_some_and(packs_num)
 }
 
-/// Whether a statement may be packed: a straight move in X, Y and Z by words that are no increments (moves behind a
+/// Whether a statement may be packed: a straight move in X, Y and Z by words that are no increments (moves after a
 /// stretch could not say again where it leaves the tool), literals or computed ones that have a shape, or a feed by
 /// such a word, without a comment, that no switch leaves out.
 pub fn packs(stmt: &Stmt) -> bool {
@@ -479,7 +479,7 @@ mod tests {
             let blocks = stmts.iter().filter(|stmt| !stmt.joined).count();
             prop_assert_eq!(packed.counts(), (stmts.len(), blocks));
             prop_assert_eq!(&packed.unpack().collect::<Vec<_>>(), &stmts);
-            // What is in force comes to them as it does to their statements.
+            // What is active comes to them as it does to their statements.
             let mut settled = packed.clone();
             settled.settle(Some(Units::Inch), Some(Distance::Absolute));
             let mut own = stmts;

@@ -11,7 +11,7 @@ use crate::expr::Expr;
 pub enum PoleFrom {
     /// Program zero.
     Zero,
-    /// Where the tool stands.
+    /// Tool position.
     Here,
     /// The pole before.
     Pole,
@@ -43,7 +43,7 @@ pub struct SetPole {
     pub at: PoleWords,
 }
 
-/// `POLAR`: a move to a point of the plane by radius and angle about the pole in force, or along a line by
+/// `POLAR`: a move to a point of the plane by radius and angle about the active pole, or along a line by
 /// its angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polar {
@@ -54,7 +54,7 @@ pub struct Polar {
     pub radius: Option<Coord>,
     /// Degrees from the first axis of the plane, counter-clockwise positive; likewise.
     pub angle: Option<Coord>,
-    /// Whether the point lies on the line that leaves where the tool stands at `angle`, there where the one
+    /// Whether the point lies on the line that leaves where the tool is at `angle`, there where the one
     /// word of the plane in the move says; the pole has nothing to do with it.
     pub along: bool,
     /// The move: a line, an arc, a hole or a position. Its point has no words of the plane, but for a line

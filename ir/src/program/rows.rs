@@ -1,4 +1,4 @@
-//! Rows of a table one behind the other, with the feeds that they state.
+//! Rows of a table one after the other, with the feeds that they state.
 //!
 //! ```text
 //! two programs in pieces of 16 KiB:   rows 1 to 700 | 701 to 1400    and 1 to 650 | 651 to 1310
@@ -37,7 +37,7 @@ impl<'t> Rows<'t> {
         self.rows.is_empty()
     }
 
-    /// The first `many`, or all, and those behind them.
+    /// The first `many`, or all, and those after them.
     pub fn split(self, many: usize) -> (Rows<'t>, Rows<'t>) {
         let (rows, behind) = self.rows.split_at(many.min(self.rows.len()));
         let feeds = rows.iter().filter(|row| row.has_feed()).count();

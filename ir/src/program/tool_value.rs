@@ -28,7 +28,7 @@ impl ToolValue {
         ToolValue::OffsetY,
     ];
 
-    /// Whether it puts the tool elsewhere when the entry is called up: a length, or an offset along an axis.
+    /// Whether it puts the tool elsewhere when the entry is activated: a length, or an offset along an axis.
     pub fn is_offset(self) -> bool {
         match self {
             ToolValue::Length | ToolValue::LengthWear | ToolValue::OffsetX | ToolValue::OffsetY => true,

@@ -56,7 +56,7 @@ fn computes(body: &[Stmt]) -> Option<Diagnostic> {
     })
 }
 
-/// Where the main procedure goes back to a program that is not there: a subprogram that stands alone.
+/// Where the main procedure returns to a program that is not there: a standalone subprogram.
 pub fn returns_alone(program: &Program) -> Option<Span> {
     fn found(body: &[Stmt]) -> Option<Span> {
         body.iter().find_map(|stmt| match &stmt.op {
@@ -68,7 +68,7 @@ pub fn returns_alone(program: &Program) -> Option<Span> {
     found(&program.procedures.first()?.body)
 }
 
-/// Whether a body moves anywhere, or calls a cycle up: what ends a cycle that was in force before it.
+/// Whether a body moves anywhere, or calls a cycle up: what ends a cycle that was active before it.
 pub fn moves(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match &stmt.op {
         Op::Control(control) => control.bodies().any(|body| moves(body)),
@@ -76,20 +76,20 @@ pub fn moves(body: &[Stmt]) -> bool {
     })
 }
 
-/// Whether every way through a body goes over such a statement that it begins with.
+/// Whether every path through a body goes over such a statement that it begins with.
 pub fn begins_by_a_move(body: &[Stmt]) -> bool {
     let plain = |stmt: &&Stmt| !matches!(stmt.op, Op::Control(_) | Op::Goto(_) | Op::Return | Op::Alarm(_));
     body.iter().take_while(plain).any(|stmt| is_move(stmt) && stmt.skip.is_none())
 }
 
-/// Where a body may go back while a cycle is in force that it has called up: its caller would go on with it.
+/// Where a body may return while a cycle is active that it has activated: its caller would go on with it.
 pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
     fn follow_cycle(body: &[Stmt], held: &mut bool, at: &mut Option<Span>) {
         for stmt in body {
             match stmt.op.unwrapped() {
                 Op::StartCycle(_) => *held = true,
                 Op::EndCycle if stmt.skip.is_none() => *held = false,
-                // What was in force where it is jumped from, is.
+                // What was active where it is jumped from, is.
                 Op::Label(_) => *held = true,
                 Op::Return if *held => *at = at.or(Some(stmt.span)),
                 Op::Control(control) => {
@@ -117,7 +117,7 @@ pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
     at
 }
 
-/// Whether a body calls up a cycle.
+/// Whether a body activates a cycle.
 fn calls_up(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match stmt.op.unwrapped() {
         Op::Control(control) => control.bodies().any(|body| calls_up(body)),
@@ -125,23 +125,23 @@ fn calls_up(body: &[Stmt]) -> bool {
     })
 }
 
-/// Where subprograms may end a cycle that their caller has called up, the first place of each: by a code, a move or a
+/// Where subprograms may end a cycle that their caller has activated, the first place of each: by a code, a move or a
 /// cycle of their own.
 pub fn ends_callers_cycle(program: &Program) -> Vec<Span> {
     struct Look<'p> {
         places: HashMap<&'p str, usize>,
-        /// Procedures that may be called while a cycle is in force.
+        /// Procedures that may be called while a cycle is active.
         under: Vec<bool>,
         grown: bool,
     }
-    /// What may be in force: a cycle, and the caller's.
+    /// What may be active: a cycle, and the caller's.
     #[derive(Clone, Copy, PartialEq)]
     struct Held {
         any: bool,
         callers: bool,
     }
     impl Look<'_> {
-        /// `led` is what may be in force where a jump leads to.
+        /// `led` is what may be active where a jump leads to.
         fn follow_calls(&mut self, body: &[Stmt], led: Held, held: &mut Held, at: &mut Option<Span>) {
             for stmt in body {
                 let op = stmt.op.unwrapped();

@@ -1,9 +1,9 @@
-//! Loops, decisions, jumps and calls that a target cannot compute when the program runs.
+//! Loops, branches, jumps and calls that a target cannot compute when the program runs.
 
 use crate::reason::reasons;
 
 reasons! {
-    /// Loops, decisions, jumps and calls that a target cannot compute when the program runs.
+    /// Loops, branches, jumps and calls that a target cannot compute when the program runs.
     #[derive(Clone, Debug, PartialEq, Eq)]
     pub enum RunTimeFlow {
         /// A loop.
@@ -28,7 +28,7 @@ reasons! {
         LoopTestedAfter,
         /// A loop within so many others.
         LoopDepth,
-        /// A loop that can be skipped.
+        /// A loop under block skip.
         LoopSkipped,
         /// A loop that has no end.
         LoopEndless,
@@ -41,13 +41,13 @@ reasons! {
             /// The most that the target takes.
             most: u8,
         },
-        /// A decision.
+        /// A branch.
         Decision,
-        /// A decision about more than one statement.
+        /// A branch for more than one statement.
         DecisionStatements,
-        /// A decision about another statement.
+        /// A branch for another statement.
         DecisionStatement,
-        /// A decision that can be skipped.
+        /// A branch under block skip.
         DecisionSkipped,
         /// A jump.
         Jump,

@@ -19,7 +19,7 @@ wings! {
     pub enum RunTime {
         /// Variables, expressions and their rounding.
         Value(RunTimeValue),
-        /// Loops, decisions, jumps and calls.
+        /// Loops, branches, jumps and calls.
         Flow(RunTimeFlow),
         /// Blocks, messages, frames and cycles with run-time values.
         Word(RunTimeWord),

@@ -44,7 +44,7 @@ reasons! {
         Declaration,
         /// A declaration after executed blocks.
         DeclarationAfterBlocks,
-        /// A declaration in a block that can be skipped.
+        /// A declaration in a block with block skip.
         DeclarationSkipped,
         /// A declaration of a common variable.
         DeclarationCommon,

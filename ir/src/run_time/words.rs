@@ -66,7 +66,7 @@ reasons! {
     /// Why a frame of a program that computes has no form in the target.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum ComputedFrame {
-        /// It can be skipped.
+        /// It is under block skip.
         Skipped,
         /// The target has another form.
         OtherForm,

@@ -7,7 +7,7 @@ use crate::expr::num::Nanos;
 use crate::program::{Frame, FrameSlot, FrameStep, Slot};
 
 impl Tracker {
-    /// There is no shift of the origin any more: from where coordinates count then, no program knows.
+    /// No G92 shift is active any more: from where coordinates count then, no program knows.
     pub(super) fn end_origin_shift(&mut self) {
         if self.modes.no_origin_shift != Some(true) {
             self.modes.no_origin_shift = Some(true);
@@ -36,7 +36,7 @@ impl Tracker {
                 self.framed = self.turned;
             }
             FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror if self.turned => {
-                // Whatever else turns is still in force.
+                // Whatever else turns is still active.
                 self.position = [None; AXES];
             }
             FrameSlot::Shift

@@ -16,7 +16,7 @@ impl Tracker {
         let normal = self.plane(cycle.plane).map(|p| p.axes().2);
         let initial = match &self.cycle {
             Some(before) => before.initial,
-            // In force or not, it is the same level.
+            // Active or not, it is the same level.
             None if self.cycle_in_doubt => {
                 let here = normal.and_then(|axis| self.position[axis as usize]);
                 self.doubtful_initial.filter(|level| here == Some(*level))

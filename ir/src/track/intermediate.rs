@@ -1,4 +1,4 @@
-//! By way of which points axes went to points of the machine, followed in program coordinates.
+//! Through which points axes went to reference points, followed in program coordinates.
 
 use super::Tracker;
 use crate::canon::{AXES, Axis};
@@ -14,7 +14,7 @@ pub struct Intermediate {
 }
 
 impl Tracker {
-    /// Axes stand at the point by way of which they go to a point of the machine.
+    /// Axes stand at the point through which they go to a reference point.
     pub(super) fn note_intermediate(&mut self, to: &Reference) {
         for (axis, goes) in to.axes.iter().enumerate() {
             if *goes {
@@ -26,7 +26,7 @@ impl Tracker {
         }
     }
 
-    /// Forgets them where coordinates are counted anew, or may be.
+    /// Forgets them where coordinates are counted again, or may be.
     pub(super) fn lose_intermediate(&mut self, op: &Op) {
         let anew = match op {
             Op::SetOriginOffsets(offset) => self.modes.work_offset != Some(*offset),

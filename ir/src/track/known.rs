@@ -1,4 +1,4 @@
-//! What the abstract execution answers to those who work out places, arcs and polar points.
+//! What the abstract execution answers to those who compute places, arcs and polar points.
 
 use super::Tracker;
 use crate::canon::{Axis, Distance, Fact};

@@ -36,7 +36,7 @@ reasons! {
         TipControl,
         /// The tool's axis turned under cutter compensation.
         AxisTurned,
-        /// A point of the machine under cutter compensation.
+        /// A reference point under cutter compensation.
         MachinePoint,
         /// Probing under cutter compensation.
         Probing,

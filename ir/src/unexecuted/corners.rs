@@ -57,7 +57,7 @@ reasons! {
         NoMotion,
         /// A move at the corner that leaves the plane.
         LeavesPlane,
-        /// The second move goes back along the first.
+        /// The second move returns along the first.
         TurnsBack,
         /// The corner is larger than its moves.
         TooLarge,

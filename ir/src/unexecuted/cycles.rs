@@ -10,7 +10,7 @@ reasons! {
         BeginsAgainInCycle,
         /// A tool change while a cycle is active.
         ToolChangeInCycle,
-        /// A return to a point of the machine while a cycle is active.
+        /// A return to a reference point while a cycle is active.
         ReturnInCycle,
         /// A rapid move by a detour while a cycle is active.
         DetourInCycle,

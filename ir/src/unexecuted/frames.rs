@@ -46,7 +46,7 @@ reasons! {
         ThreadUnderTip,
         /// Cutter compensation under tool centre point control.
         CompensationUnderTip,
-        /// A point of the machine under tool centre point control.
+        /// A reference point under tool centre point control.
         MachinePointUnderTip,
         /// Probing under tool centre point control.
         ProbingUnderTip,

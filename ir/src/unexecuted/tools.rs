@@ -14,9 +14,9 @@ reasons! {
         IncrementTakesLength,
         /// Another offset of the tool along X or Y in a cycle, a contour or a tilted plane.
         OffsetInCycle,
-        /// Another radius for the tool that is in use.
+        /// Another radius for the current tool.
         RadiusInUse,
-        /// Another length for the tool that is in use.
+        /// Another length for the current tool.
         LengthInUse,
         /// A tool measured in a frame that turns or scales, or beside a contour.
         MeasuredInFrame,

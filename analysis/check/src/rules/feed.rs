@@ -10,7 +10,7 @@ use crate::limits::Unchecked;
 use crate::seen::Known;
 use crate::watched::Watched;
 
-/// A feed is said.
+/// A feed is stated.
 pub(crate) fn said(checker: &mut Watched, feed: Nanos, at: Span) {
     match checker.limits.max_feed {
         Some(limit) if feed > limit => {
@@ -29,7 +29,7 @@ pub(crate) fn cut(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     let limits = &checker.limits;
     let fast = limits.axis_feed.iter().any(|limit| limit.is_some_and(|limit| event.rate > limit));
     let path = limits.max_feed.is_some_and(|limit| event.rate > limit);
-    // What is told of the path is not told again of its axes.
+    // What is reported of the path is not reported again for its axes.
     if !fast || path || checker.seen.feed != Known::Said || !matches!(event.kind, Kind::Feed) {
         return;
     }

@@ -1,4 +1,4 @@
-//! NC0806: Z moves after a tool change before the length of the tool is in force.
+//! NC0806: Z moves after a tool change before the length of the tool is active.
 
 use ncc_exec::{Event, Exec};
 use ncc_ir::source::Span;
@@ -17,7 +17,7 @@ pub(crate) fn changed(checker: &mut Watched, event: &Event) {
     };
 }
 
-/// A length is said: a tool's, or none.
+/// A length is stated: a tool's, or none.
 pub(crate) fn said(checker: &mut Watched, at: Span, exec: &Exec) {
     let none = exec.length_entry() == Some(0) || exec.length_edge().is_some_and(|(_, edge)| edge == 0);
     if none {

@@ -32,7 +32,7 @@ pub(crate) fn moved(checker: &mut Watched, step: &Step, exec: &Exec) {
     }
 }
 
-/// A cycle has been called up.
+/// A cycle has been activated.
 pub(crate) fn cycle(checker: &mut Watched, step: &Step, exec: &Exec) {
     let Some(plane) = checker.limits.rapid_plane else { return };
     let Op::StartCycle(cycle) = &step.stmt.op else { return };

@@ -7,7 +7,7 @@ use crate::finding::What;
 use crate::limits::Unchecked;
 use crate::watched::Watched;
 
-/// A speed is said.
+/// A speed is stated.
 pub(crate) fn said(checker: &mut Watched, speed: Nanos, at: Span) {
     match checker.limits.max_speed {
         Some(limit) if speed > limit => {

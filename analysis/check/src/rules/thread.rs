@@ -40,7 +40,7 @@ const ROUNDED: Nanos = 10;
 /// How far below it a tap in a compensating chuck may be fed, in thousandths: often on purpose, so that the chuck pulls.
 const PULLED: Nanos = 60;
 
-/// A move in step with the spindle. Such moves are few, and plain ones must not pay for them.
+/// A spindle-synchronised move. Such moves are few, and plain ones must not pay for them.
 #[cold]
 pub(crate) fn cut(checker: &mut Watched, event: &Event) {
     let Kind::Synchronised { pitch, chuck } = event.kind else { return };

@@ -1,4 +1,4 @@
-//! What feeds and speeds count, and the feed of each move that is said by its time.
+//! What feeds and speeds count, and the inverse-time feed of each move.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -11,7 +11,7 @@ use ncc_ir::program::{Op, Stmt};
 
 use super::{Printer, cannot, literal, notes};
 
-/// Least feed that the interpreter makes of a time, in the unit in force a minute.
+/// Least feed that the interpreter makes of a time, in the active unit a minute.
 const LEAST: f64 = 0.1;
 
 /// Limit of the spindle under a surface speed where the program says none.
@@ -23,7 +23,7 @@ impl Printer<'_> {
         let _ = writeln!(self.out, "SET_FEED_RATE({feed:.4})");
     }
 
-    /// A mode by time sets no feed until a move has one.
+    /// Inverse time sets no feed until a move has one.
     pub(super) fn feed_mode(&mut self, mode: FeedMode) -> Result<(), Fault> {
         self.feed = None;
         let turns = u8::from(mode == FeedMode::PerRevolution);
@@ -52,7 +52,7 @@ impl Printer<'_> {
         let _ = writeln!(self.out, "SET_SPINDLE_MODE(0 {limit:.4})");
     }
 
-    /// The feed of a straight move that is said by its time.
+    /// The inverse-time feed of a straight move.
     pub(super) fn rate_of_line(&mut self) -> Result<(), Fault> {
         let (here, to) = (self.here()?, self.exec.position());
         let way: [f64; AXES] = std::array::from_fn(|axis| self.shown(axis, to[axis] - here[axis]));
@@ -61,7 +61,7 @@ impl Printer<'_> {
         self.rate_of(if linear > 0.0 { linear } else { rotary })
     }
 
-    /// The feed of an arc that is said by its time: start, end and centre in its plane, turns by their sense, and how
+    /// The inverse-time feed of an arc: start, end and centre in its plane, turns by their sense, and how
     /// far it goes along the normal.
     pub(super) fn rate_of_arc(
         &mut self,
@@ -83,7 +83,7 @@ impl Printer<'_> {
             return Ok(());
         }
         if self.beside {
-            // The way of the tool's centre is another, and settled late.
+            // The tool centre path is another, and settled late.
             return Err(cannot(CompensationLack::FeedModeListed));
         }
         let often = self.feed.ok_or(Fault::NoFeed)?;

@@ -1,4 +1,4 @@
-//! Straight moves that are more than one call: in step with the spindle, to a probe's touch, to points of the machine,
+//! Straight moves that are more than one call: synchronised with the spindle, to a probe's touch, to reference points,
 //! and of blocks that leave the code of motion to those before.
 
 use std::fmt::Write;
@@ -44,7 +44,7 @@ impl Printer<'_> {
         Ok(())
     }
 
-    /// By way of a point, which may be where it stands, to the position that is stored.
+    /// Through a point, which may be where it stands, to the position that is stored.
     pub(super) fn reference(&mut self, reference: &Reference) -> Result<(), Fault> {
         let via = self.target(&reference.via)?;
         self.straight("STRAIGHT_TRAVERSE", via);
@@ -52,7 +52,7 @@ impl Printer<'_> {
         Ok(())
     }
 
-    /// A block with axis words alone, by the motion in force.
+    /// A block with axis words alone, by the active motion.
     pub(super) fn position(&mut self) -> Result<(), Fault> {
         match self.exec.motion() {
             Motion::Traverse => self.straight("STRAIGHT_TRAVERSE", self.exec.position()),

@@ -1,4 +1,4 @@
-//! Offsets in force, and where the program stands in them.
+//! Offsets active, and where the program stands in them.
 //!
 //! Both are execution's: the interpreter's calls judge it too.
 
@@ -15,7 +15,7 @@ use ncc_ir::program::{Data, Op, Stmt};
 use super::{Printer, cannot};
 
 impl Printer<'_> {
-    /// Lets execution go on by a statement. Contours are worked out before they come here; an arc is judged by this
+    /// Lets execution go on by a statement. Contours are computed before they come here; an arc is judged by this
     /// control's own tolerance where it is printed; a return is the end of the body that is followed.
     pub(super) fn execute(&mut self, stmt: &Stmt) -> Result<(), Diagnostic> {
         let of_a_contour =
@@ -34,7 +34,7 @@ impl Printer<'_> {
         Ok(())
     }
 
-    /// The offsets of the tool that are called up by now, in the unit in force; of an entry, where the program has put
+    /// The offsets of the tool that are activated by now, in the active unit; of an entry, where the program has put
     /// them all there.
     pub(super) fn tool_offsets(&mut self, entry: &Expr) -> Result<(), Fault> {
         let entry = entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
@@ -95,7 +95,7 @@ impl Printer<'_> {
         let _ = writeln!(self.out, "SET_XY_ROTATION({turn:.4})");
     }
 
-    /// The shift of the origin, zero while it is put aside.
+    /// The G92 shift, zero while it is put aside.
     pub(super) fn origin_shift(&mut self) {
         let shifted = self.exec.answer(&System::OriginShifted) == Some(1.0);
         let values = match shifted {
@@ -105,7 +105,7 @@ impl Printer<'_> {
         let _ = writeln!(self.out, "SET_G92_OFFSET({values})");
     }
 
-    /// A value for each axis, in the unit in force; what has none is zero.
+    /// A value for each axis, in the active unit; what has none is zero.
     fn values(&self, of: impl Fn(Axis) -> System) -> String {
         let mut values = String::with_capacity(AXES * 8);
         for axis in Axis::ALL {

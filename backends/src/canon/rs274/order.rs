@@ -74,7 +74,7 @@ pub(super) fn rank(op: &Op) -> u8 {
     }
 }
 
-/// Calls that do not wait behind a move whose end is not settled.
+/// Calls that do not wait after a move whose end is not settled.
 pub(super) fn overtakes(op: &Op) -> bool {
     matches!(
         op,

@@ -51,7 +51,7 @@ impl Printer<'_> {
         Ok(())
     }
 
-    /// The number behind a letter on a statement's line, where it stands as a number.
+    /// The number after a letter on a statement's line, where it stands as a number.
     fn word_of_line(&self, stmt: &Stmt, letter: u8) -> Option<f64> {
         let line = self.source.get(stmt.span.start as usize..)?.split(|b| *b == b'\n').next()?;
         let words = line.split(|b| matches!(b, b'(' | b';')).next()?;

@@ -23,7 +23,7 @@ pub(crate) struct CycleCode {
     pub form: CycleForm,
     /// Whether its feed out goes on to where the tool is left.
     pub to_level: bool,
-    /// Whether its dwell must be said.
+    /// Whether its dwell must be stated.
     pub dwell_needed: bool,
     /// Whether the control dwells after each peck by itself.
     pub own_pause: bool,

@@ -370,7 +370,7 @@ impl Spelling<'_> {
         }
         out.push('-');
         match a {
-            // A sign behind a sign.
+            // A sign after a sign.
             Expr::Num(n) if n.mantissa < 0 => self.bracketed(a, depth, out),
             a => self.expr(a, 0, false, depth, out),
         }
@@ -464,7 +464,7 @@ fn without_rounding(at: &Expr) -> &Expr {
     }
 }
 
-/// The number of a variable, which is its name behind the prefix.
+/// The number of a variable, which is its name after the prefix.
 pub(crate) fn number_of(var: &Var, prefix: &str) -> Result<String, Fault> {
     match var {
         Var::System(asked) => Err(cannot_compute(RunTimeValue::AskedVariable { asked: asked.clone() })),

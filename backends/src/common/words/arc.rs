@@ -83,7 +83,7 @@ impl Words {
     }
 
     /// Whether a place along an axis is surely another than the one that was written last, however it is rounded: further
-    /// from it than a unit of the last digit, of inches too.
+    /// from it than one least increment, of inches too.
     fn arrives_apart(&self, axis: Axis, to: Nanos) -> bool {
         let (Some(letter), Ok(from)) = (self.codes.axes[axis as usize], self.axis_position(axis)) else {
             return false;

@@ -31,7 +31,7 @@ impl Words {
         }
     }
 
-    /// Begins a statement, and gives what was in force before.
+    /// Begins a statement, and gives what was active before.
     ///
     /// # Errors
     /// Its block cannot be marked to be skipped.

@@ -14,7 +14,7 @@ pub(crate) struct ProgramFacts {
     pub(super) kept: bool,
     /// Whether lengths count mm wherever the text does not say what they count.
     pub(crate) metric: bool,
-    /// Modes in force where stretches of blocks begin, by the places of their first statements.
+    /// Modes active where stretches of blocks begin, by the places of their first statements.
     entries: HashMap<u32, Modes>,
     /// The distance mode of the program where the stretch at hand begins, if it is known.
     pub(super) entry: Option<Distance>,
@@ -31,12 +31,12 @@ impl Words {
         self.know_modes(entries);
     }
 
-    /// Takes which modes are in force where stretches of blocks begin.
+    /// Takes which modes are active where stretches of blocks begin.
     pub(crate) fn know_modes(&mut self, entries: HashMap<u32, Modes>) {
         self.facts.entries = entries;
     }
 
-    /// Where a stretch of blocks begins, modes that are known there on every way are in force in the text as in the
+    /// Where a stretch of blocks begins, modes that are known there on every path are active in the text as in the
     /// source: the text states each that the source does, and no other.
     pub(crate) fn stand(&mut self, stmt: &Stmt) {
         let known = self.facts.entries.get(&stmt.span.start);

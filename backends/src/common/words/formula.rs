@@ -35,7 +35,7 @@ impl Words {
         })
     }
 
-    /// A condition is a decision's alone, where loops and decisions have no words of their own for blocks.
+    /// A condition is a branch's alone, where loops and branches have no words of their own for blocks.
     fn no_condition(&self, e: &Expr) -> Result<(), Fault> {
         match self.dialect.program.macro_b && e.has(&decides) {
             true => Err(cannot_compute(RunTimeValue::ConditionAsValue)),
@@ -43,7 +43,7 @@ impl Words {
         }
     }
 
-    /// Reports what an expression takes for granted of the machine.
+    /// Reports what an expression assumes of the machine.
     pub(crate) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
         if arcs(e) {
             self.rely(ANGLE_RANGE, span, sink);
@@ -151,7 +151,7 @@ impl Words {
             (None, None) => None,
             (Some(said), Some([mm, inch])) if mm == inch && said == mm => Some(said),
             (Some(said), Some([mm, inch])) if mm != inch && (said == mm || said == inch) => {
-                // The units in force say which of the two is meant.
+                // The active units say which of the two is meant.
                 let unit = if said == mm { Unit::Mm } else { Unit::Inch };
                 self.check_unit(Num::int(1, unit), span)?;
                 Some(said)

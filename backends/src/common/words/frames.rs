@@ -78,7 +78,7 @@ impl Words {
         self.filled(code, &self.along(axes)?, &[], Inserted::default(), span, sink)
     }
 
-    /// Suspends the shift of the origin, or takes it up again.
+    /// Suspends the G92 shift, or restores it.
     pub(crate) fn origin_shift(&mut self, on: bool, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let lack = if on { FramesLack::ShiftResumed } else { FramesLack::ShiftSuspended };
         let code = self.codes.origin_shift[usize::from(on)].ok_or_else(|| cannot(lack))?;

@@ -1,5 +1,5 @@
-//! A writer of words, letters with numbers, which writers hold that have them: the block at hand, what is in force in
-//! the text, where the axes are, and the statements that are said by codes and addresses alone.
+//! A writer of words, letters with numbers, which writers hold that have them: the block at hand, what is active in
+//! the text, where the axes are, and the statements that are stated by codes and addresses alone.
 //!
 //! ```text
 //! STRAIGHT_FEED(X 10.5mm) & SET_FEED_RATE(100mm)    `G1 X10.5 F100.`
@@ -66,14 +66,14 @@ pub(crate) struct Words {
     pub(crate) block: Block,
     pub(crate) active: ActiveModes,
     pub(crate) tracker: Tracker,
-    /// By how much rounding puts the written position behind the program's: nanos of a millimetre or degree, by axis.
+    /// By how much rounding puts the written position after the program's: nanos of a millimetre or degree, by axis.
     pub(crate) residue: [Nanos; AXES],
-    /// Which way round A, B and C go in the next move.
+    /// The direction in which A, B and C turn in the next move.
     pub(crate) ways: [Option<RotaryWay>; 3],
     /// Whether any residue is not zero.
     pub(crate) residual: bool,
     pub(crate) preamble: Option<Preamble>,
-    /// Facts taken for granted that were known at the last piece.
+    /// Facts assumed that were known at the last piece.
     pub(crate) assumed: Modes,
     /// Whether facts of the program's start may have been changed unseen (a call, a skipped block).
     pub(crate) lost: bool,
@@ -94,7 +94,7 @@ pub(crate) struct Words {
     pub(crate) probe: Option<ProbeCode>,
     /// The next rapid straight move is one by a detour, by this code.
     pub(crate) detour: Option<Code>,
-    /// The word of the corner behind the next move.
+    /// The word of the corner after the next move.
     pub(crate) corner: Option<String>,
     /// What is known of the program as a whole.
     pub(crate) facts: ProgramFacts,
@@ -102,18 +102,18 @@ pub(crate) struct Words {
     pub(crate) own_values: Vec<(u32, Expr)>,
     /// Names of the variables of the procedure at hand, as they are spelt.
     pub(crate) variables: BTreeMap<Text, String>,
-    /// Whether the words of the statement at hand say their own distance mode, where others rely on the one in force.
+    /// Whether the words of the statement at hand say their own distance mode, where others rely on the active one.
     pub(crate) says_distance: bool,
     /// Units that the text states anywhere.
     pub(crate) units_stated: [bool; 2],
-    /// A literal that relies on one unit being in force throughout, and where.
+    /// A literal that relies on one unit being active throughout, and where.
     units_relied: Option<(Units, Span)>,
     /// Lines of plain moves that have not been passed on, and how many bytes they are.
     page: [u8; plain::PAGE],
     filled: usize,
     /// Codes whose meaning is not confirmed, as far as reported.
     told_unsure: Vec<Code>,
-    /// Words of plain moves that the tracker has not been told of yet, and which axes they name.
+    /// Words of plain moves that the tracker does not know yet, and which axes they name.
     last_words: [Num; AXES],
     pub(crate) named: u8,
     /// Blocks of a tool change.
@@ -277,7 +277,7 @@ impl Words {
         }
     }
 
-    /// Forgets everything that is in force: after a call, at a procedure's start.
+    /// Forgets everything that is active: after a call, at a procedure's start.
     pub(crate) fn forget(&mut self) {
         self.active = ActiveModes::default();
         self.residue = [0; AXES];

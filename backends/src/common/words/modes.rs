@@ -59,7 +59,7 @@ impl Words {
                 };
                 match code {
                     Some(code) => Ok(Some(code)),
-                    // A control with one work offset has no word for it.
+                    // A control with one work offset lacks it.
                     None if self.dialect.caps.frames.work_offsets == 0 => Ok(None),
                     None => Err(cannot(FramesLack::WorkOffset { offset: n })),
                 }
@@ -137,13 +137,13 @@ impl Words {
                 self.active.our_level = false;
             }
             Setting::Turns => self.active.spindle_mode = Some(SpindleMode::Turns),
-            // The code of a cycle's end leaves the motion to be said again.
+            // The code of a cycle's end leaves the motion to be stated again.
             Setting::NoCycle => self.active.motion = None,
             Setting::Origin(_) | Setting::NoShift | Setting::NoCompensation | Setting::NoLength => {}
         }
     }
 
-    /// Takes over facts that the source took for granted, where this control has them at its own
+    /// Takes over facts that the source assumed, where this control has them at its own
     /// power-on as well and nothing in the text can have changed them.
     pub(crate) fn take_for_granted(&mut self, assumed: &Modes) {
         if self.lost {
@@ -164,7 +164,7 @@ impl Words {
         self.assumed = *assumed;
     }
 
-    /// The distance mode that coordinates need, put in if it is not in force.
+    /// The distance mode that coordinates need, put in if it is not active.
     ///
     /// # Errors
     /// Absolute and incremental words together, or words in the source's own mode where the text
@@ -176,7 +176,7 @@ impl Words {
     ) -> Result<(), Fault> {
         let mut wanted = None;
         let mut inherits = false;
-        // Words that say their own distance need nothing put in, once a mode is in force.
+        // Words that say their own distance need nothing put in, once a mode is active.
         let qualifiers = self.dialect.block.qualifiers;
         let in_force = self.says_distance || self.active.distance.is_some();
         for coord in coords {
@@ -203,7 +203,7 @@ impl Words {
         Ok(())
     }
 
-    /// What a word of another distance mode than the one in force is marked by, on a control whose
+    /// What a word of another distance mode than the active one is marked by, on a control whose
     /// words can be marked.
     pub(crate) fn qualifier(&self, distance: Fact<Distance>) -> Option<&'static str> {
         match distance {
@@ -217,7 +217,7 @@ impl Words {
         }
     }
 
-    /// The plane that a statement needs, put in if it is not in force.
+    /// The plane that a statement needs, put in if it is not active.
     pub(crate) fn need_plane(&mut self, plane: Fact<Plane>, inserted: &mut Inserted) -> Result<(), Fault> {
         match plane {
             Fact::Known(p) if self.active.plane != Some(p) => {
@@ -262,7 +262,7 @@ impl Words {
         self.admit(&need, sink)
     }
 
-    /// Checks that a literal's unit is the one in force in the text.
+    /// Checks that a literal's unit is the active one in the text.
     pub(crate) fn check_unit(&mut self, n: Num, span: Span) -> Result<(), Fault> {
         let units = match n.unit {
             Unit::Mm => Units::Mm,

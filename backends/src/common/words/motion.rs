@@ -1,4 +1,4 @@
-//! Moves: straight ones, positions that do what is in force, and the axis words of all.
+//! Moves: straight ones, positions that do what is active, and the axis words of all.
 //!
 //! Axis words are exactly those of the statement.
 //!
@@ -54,7 +54,7 @@ impl Words {
             self.block.code(Part::Motion, &code);
         }
         match probe {
-            // Whether it stays in force is a parameter of some controls.
+            // Whether it stays active is a parameter of some controls.
             None if detour.is_some() => self.active.motion = None,
             None => self.active.motion = Some(motion),
             Some(probe) if probe.stays => self.active.motion = None,
@@ -82,7 +82,7 @@ impl Words {
         Ok(())
     }
 
-    /// Axis words that do whatever is in force.
+    /// Axis words that do whatever is active.
     pub(crate) fn position(&mut self, to: &Move, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !self.dialect.caps.flow.inherits_motion {
             return Err(cannot(WordsLack::CallersMotion));
@@ -140,7 +140,7 @@ impl Words {
                 return Ok(());
             }
             let value = self.computed(&letter, &coord.value, span, sink)?;
-            // What rounding has left before is left behind by a point of its own.
+            // What rounding has left before is left after by a point of its own.
             if coord.distance.known().or(self.active.distance) != Some(Distance::Incremental) {
                 self.residue[axis as usize] = 0;
             }
@@ -159,7 +159,7 @@ impl Words {
         Ok(())
     }
 
-    /// The qualifier of an axis that was told which way round it goes.
+    /// The qualifier of an axis with a stated direction.
     fn way_round(&mut self, axis: Axis) -> Option<&'static str> {
         let place = (axis as usize).checked_sub(Axis::A as usize)?;
         let way = self.ways[place].take()?;
@@ -167,7 +167,7 @@ impl Words {
         Some(&row.name)
     }
 
-    /// A coordinate in the control's digits. What rounding leaves behind is kept, so that the errors
+    /// A coordinate in the control's digits. What rounding leaves after is kept, so that the errors
     /// of incremental words do not add up.
     fn coordinate(
         &mut self,

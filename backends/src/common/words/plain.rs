@@ -23,7 +23,7 @@ pub(crate) const PAGE: usize = 4096;
 /// Room for a line: number, motion code, six axes, feed, line end, and what the last word touches.
 const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
 
-/// A word behind those of the axes: its name, with all that stands before its number, and that. There are three at most,
+/// A word after those of the axes: its name, with all that stands before its number, and that. There are three at most,
 /// beside three axes.
 #[derive(Clone, Copy)]
 pub(crate) struct Behind<'n> {
@@ -49,7 +49,7 @@ impl Words {
         }
     }
 
-    /// The same of a block with a comment behind its words.
+    /// The same of a block with a comment after its words.
     fn commented(&mut self, stmts: &[Stmt], comment: &str, sink: &mut Sink) -> bool {
         self.pass_on(sink.out);
         if !self.plain_words(stmts, sink.out) {
@@ -116,7 +116,7 @@ impl Words {
         done
     }
 
-    /// Writes a block that is nothing but words of X, Y and Z at which the motion in force goes rapidly; or returns `false`
+    /// Writes a block that is nothing but words of X, Y and Z at which the active motion goes rapidly; or returns `false`
     /// without having written or changed anything.
     pub(crate) fn plain_point(&mut self, stmt: &Stmt, to: &Point, out: &mut Vec<u8>) -> bool {
         let code = (Motion::Traverse, self.codes.traverse);
@@ -322,7 +322,7 @@ impl Words {
         self.filled = 0;
     }
 
-    /// Brings the tracker up to the last plain moves, which leave only their words behind.
+    /// Brings the tracker up to the last plain moves, which leave only their words.
     pub(crate) fn settle(&mut self) {
         let distance = self.active.distance;
         let named = std::mem::take(&mut self.named);

@@ -24,7 +24,7 @@ const WAIT: &str = "orient_wait";
 /// What the text has said of surface speeds.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Surfaces {
-    /// Whether any was in force so far.
+    /// Whether any was active so far.
     pub(crate) met: bool,
     /// Whether any limit was.
     pub(crate) limited: bool,
@@ -32,13 +32,13 @@ pub(crate) struct Surfaces {
     pub(crate) unlimited: bool,
     /// A code whose speed must follow it in its block.
     waits: Option<Span>,
-    /// A limit that is to be said with the surface speed that follows.
+    /// A limit that is to be stated with the surface speed that follows.
     pub(crate) unsaid: Option<Span>,
 }
 
 impl Words {
     /// The code by which a speed counts turns a minute. None is needed where a control has no other way, and
-    /// where a code of the feed says so: both are of one group there, and it is in force already.
+    /// where a code of the feed says so: both are of one group there, and it is active already.
     pub(super) fn turns_code(&self) -> Result<Option<Code>, Fault> {
         let Some(code) = self.codes.spindle_mode(SpindleMode::Turns, self.active.feed_mode) else {
             return match self.surfaces.met {

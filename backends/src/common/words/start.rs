@@ -1,7 +1,7 @@
 //! The safe start: what a written program states before its first event.
 //!
-//! It says what the source says before its first event, then what the translation takes for
-//! granted; a fact that neither knows is left out. Comments that come before wait behind it.
+//! It says what the source says before its first event, then what the translation assumes
+//! ; a fact that neither knows is left out. Comments that come before wait after it.
 
 use ncc_dialects::SafeStart;
 use ncc_ir::canon::{Axis, Distance, Fact, Modes, ReturnLevel, Units};
@@ -27,7 +27,7 @@ pub(crate) struct Preamble {
     /// Whether anything was absorbed.
     any: bool,
     /// Whether the first way along Z is so far from where the axis stands, or a thread or an arc from there, and no
-    /// length is said before it: whether it is longer by a length that it takes up, or cancels, is a setting of the
+    /// length is stated before it: whether it is longer by a length that it applies, or cancels, is a setting of the
     /// control.
     up_from_here: bool,
     /// Number of the first absorbed block.
@@ -52,7 +52,7 @@ impl Words {
         }
     }
 
-    /// The tool that is in the spindle before the program begins.
+    /// The tool in the spindle before the program begins.
     pub(crate) fn hold_tool(&mut self, tool: u32) {
         let tool = Some(i64::from(tool));
         (self.tracker.tool, self.tracker.selected) = (tool, tool);
@@ -132,7 +132,7 @@ impl Words {
         }
     }
 
-    /// Writes the safe start and what waits behind it, before the first event.
+    /// Writes the safe start and what waits after it, before the first event.
     pub(crate) fn start(&mut self, sink: &mut Sink) {
         // What stands in the block at hand belongs to comments that come before.
         let (number, skip) = (self.block.number, self.block.skip);
@@ -253,7 +253,7 @@ impl Words {
     }
 }
 
-/// What the source says, else what is taken for granted.
+/// What the source says, else what is assumed.
 struct Facts<'a> {
     said: &'a Modes,
     assumed: &'a Modes,

@@ -1,4 +1,4 @@
-//! One statement that is said by codes and words alone: which ones, and where they stand in the block.
+//! One statement that is stated by codes and words alone: which ones, and where they stand in the block.
 
 use ncc_ir::canon::{Motion, PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
@@ -167,7 +167,7 @@ impl Words {
     /// The value of a word: a number in the control's digits, or what is computed.
     ///
     /// # Errors
-    /// It cannot be computed, is in another unit than the one in force, or out of range.
+    /// It cannot be computed, is in another unit than the active one, or out of range.
     pub(crate) fn value(
         &mut self,
         letter: &Letter,
@@ -184,7 +184,7 @@ impl Words {
     /// The number of a word in the control's digits.
     ///
     /// # Errors
-    /// It is computed, in another unit than the one in force, or out of range.
+    /// It is computed, in another unit than the active one, or out of range.
     pub(crate) fn number(
         &mut self,
         letter: &Letter,

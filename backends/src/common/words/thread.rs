@@ -1,4 +1,4 @@
-//! Moves in step with the spindle: the code, one axis word and its lead.
+//! Spindle-synchronised moves: the code, one axis word and its lead.
 //!
 //! What the target has of them, a pass has seen to.
 
@@ -17,7 +17,7 @@ use crate::common::setting::Inserted;
 use crate::common::{Sink, number};
 
 impl Words {
-    /// Writes a move in step with the spindle.
+    /// Writes a spindle-synchronised move.
     ///
     /// # Errors
     /// The dialect has no such move, or the lead has more digits than its word.

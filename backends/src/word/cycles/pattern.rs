@@ -18,7 +18,7 @@ use crate::common::setting::Inserted;
 use crate::common::{Sink, number};
 
 impl Writer {
-    /// A pattern of holes with the cycle in force.
+    /// A pattern of holes with the active cycle.
     pub(crate) fn pattern(&mut self, pattern: &Pattern, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         match self.held.take() {
             Some(held) if self.dialect.cycles.hole_on_definition => {

@@ -1,4 +1,4 @@
-//! Calls of which the number, or how often, is computed: `M98 P#101 L#102`.
+//! Calls of which the number, or the repeat count, is computed: `M98 P#101 L#102`.
 //!
 //! Read again, the number is one of a program of the text; so these must be all of them, which the verification tells.
 

@@ -1,6 +1,6 @@
 //! Codes of which the number is a variable: `G#3`.
 //!
-//! Read again, the variable must have its value from the codes in force, which the reader of the output tells.
+//! Read again, the variable must have its value from the active codes, which the reader of the output tells.
 
 use ncc_dialects::Meaning;
 use ncc_ir::computed::computed_code::ComputedCode;

@@ -1,4 +1,4 @@
-//! Places of the control's tables by a computed number: `#[5201 + #1 * 20]`.
+//! Entries of the control's tables by a computed number: `#[5201 + #1 * 20]`.
 //!
 //! Which numbers there can be is shown where the program is read, and again where the output is read back.
 
@@ -81,7 +81,7 @@ impl Writer {
 
     /// The variable that a place is.
     fn place_by_number(&self, place: &Place, number: &Expr) -> Result<String, Fault> {
-        // As they are said one by one, or not at all.
+        // As they are stated one by one, or not at all.
         self.words.spelling(None)?.target(&Target::Var(Var::System(place.first.clone())))?;
         let at = vec![number_of(place, number)];
         let element = Element { of: Many::Numbered(Box::new([])), at };

@@ -1,7 +1,7 @@
-//! Jumps to the block whose number is computed: decisions about one value in one block, which go to the block of the
-//! number that they compare it with, and an alarm of the control behind them.
+//! Jumps to the block whose number is computed: branches for one value in one block, which go to the block of the
+//! number that they compare it with, and an alarm of the control after them.
 //!
-//! Read again, `GOTO` with a value is a decision about each block that has a number; so these must be all of them, by
+//! Read again, `GOTO` with a value is a branch for each block that has a number; so these must be all of them, by
 //! their own numbers, which the verification tells.
 
 use ncc_ir::diag::Fault;
@@ -22,7 +22,7 @@ pub(in crate::word) struct JumpOf<'s> {
     to: Vec<(i64, &'s str)>,
 }
 
-/// A decision about one statement.
+/// A branch for one statement.
 fn decided(stmt: &Stmt) -> Option<(&Expr, &Op)> {
     let Op::Control(control) = &stmt.op else { return None };
     match &**control {
@@ -42,7 +42,7 @@ fn binary(e: &Expr, operator: Binary) -> Option<(&Expr, &Expr)> {
     }
 }
 
-/// Whether a statement is the alarm behind such decisions, and what it depends on.
+/// Whether a statement is the alarm after such branches, and what it depends on.
 fn ends(stmt: &Stmt) -> Option<Option<&Expr>> {
     let (condition, op) = decided(stmt).map_or((None, &stmt.op), |(condition, op)| (Some(condition), op));
     let Op::Alarm(alarm) = op else { return None };

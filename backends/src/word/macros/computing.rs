@@ -1,4 +1,4 @@
-//! Statements of programs that compute: assignments, decisions, loops, jumps, and calls with arguments.
+//! Statements of programs that compute: assignments, branches, loops, jumps, and calls with arguments.
 //!
 //! Each stands in a block of its own. A block that is jumped to keeps its number; another one gets a number that no
 //! other block has. Loops have the number of their depth.
@@ -165,7 +165,7 @@ impl Writer {
             return Ok(());
         }
         let text = self.assignment(to, value, span, sink)?;
-        // What another language sets when its block is over stands behind the block here.
+        // What another language sets when its block is over stands after the block here.
         if !self.has_o_words() && !self.words.block.is_empty() {
             self.words.flush(false, sink);
             self.words.split = true;
@@ -196,8 +196,8 @@ impl Writer {
         format!("{to}{blank}={blank}{value}")
     }
 
-    /// A variable gets another value: what was said with it is not what the same words would say now. A cycle that
-    /// is computed from it is called up before.
+    /// A variable gets another value: what was stated with it is not what the same words would say now. A cycle that
+    /// is computed from it is activated before.
     fn variable_changes(&mut self, to: &Target, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !self.held.as_ref().is_some_and(|held| held.reads(to)) {
             return Ok(());
@@ -230,7 +230,7 @@ impl Writer {
         Ok(format!("GOTO{blank}{number}"))
     }
 
-    /// A decision or a loop.
+    /// A branch or a loop.
     pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.words.spelling(None)?;
         let computes = self.dialect.caps.flow.computes.as_ref();

@@ -1,7 +1,7 @@
-//! Calls of one macro behind every move, of a control that makes them by itself: `G66` before the first of them, `G67`
-//! behind the last.
+//! Calls of one macro after every move, of a control that makes them by itself: `G66` before the first of them, `G67`
+//! after the last.
 //!
-//! The moves are those of blocks in which nothing but the call is behind them, and between which stands nothing that goes
+//! The moves are those of blocks in which nothing but the call is after them, and between which stands nothing that goes
 //! another way, is skipped or acts by a cycle. What the arguments are worth is written there once; so they are numbers.
 
 use ncc_ir::expr::{Expr, Node};
@@ -11,18 +11,18 @@ use crate::common::Sink;
 use crate::common::block::{Need, Part, Rank};
 use crate::word::Writer;
 
-/// Whether calls behind moves are being written.
+/// Whether calls after moves are being written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::word) enum AtMoves {
     /// Each call is one of its own.
     None,
     /// The block that says the call.
     Begins,
-    /// The blocks behind which the control makes it.
+    /// The blocks after which the control makes it.
     Within,
 }
 
-/// Blocks with such calls: from the first statement to behind the last, and one of the calls.
+/// Blocks with such calls: from the first statement to after the last, and one of the calls.
 pub(in crate::word) struct Run {
     pub(in crate::word) from: usize,
     pub(in crate::word) to: usize,
@@ -31,14 +31,14 @@ pub(in crate::word) struct Run {
 
 /// What a block is for them.
 enum Kind<'s> {
-    /// It moves, and the call is behind the move.
+    /// It moves, and the call is after the move.
     Calls(&'s Call),
     /// It does not move.
     Between,
     Other,
 }
 
-/// A code of motion without words moves nothing, and the control calls nothing behind it.
+/// A code of motion without words moves nothing, and the control calls nothing after it.
 fn is_move(op: &Op) -> bool {
     match op {
         Op::StraightTraverse(words) | Op::StraightFeed(words) | Op::Position(words) => !words.to.is_empty(),
@@ -92,7 +92,7 @@ fn kind(block: &[Stmt]) -> Kind<'_> {
 }
 
 impl Writer {
-    /// Where the control makes calls behind moves by itself.
+    /// Where the control makes calls after moves by itself.
     pub(in crate::word) fn runs_at_moves(&self, stmts: &[Stmt]) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         // A call in the block of something else is rare, and looked for first.

@@ -1,4 +1,4 @@
-//! Programs that compute in the words of a control with O words: decisions and loops with their blocks, subprograms
+//! Programs that compute in the words of a control with O words: branches and loops with their blocks, subprograms
 //! with variables of their own, messages with values (`[program] o_words`).
 //!
 //! A label serves once in the text. Subprograms stand before all that calls them: a call of one that has not been met
@@ -54,7 +54,7 @@ pub(crate) struct OWords {
     result: Option<(Expr, Option<bool>)>,
     /// Whether some loop that is tested before its turns is left from within.
     left: bool,
-    /// Whether a turn of a `do` is left somewhere, and whether there is a `repeat`: the one disturbs the other.
+    /// Whether an iteration of a `do` is left somewhere, and whether there is a `repeat`: the one disturbs the other.
     turned: bool,
     repeats: bool,
 }
@@ -67,7 +67,7 @@ struct Open {
     turns: bool,
     /// Whether it can be left.
     leaves: bool,
-    /// Whether it can be left behind a place where its turn is: a `do` looks for its end, and takes a `break` on the
+    /// Whether it can be left after a place where its turn is: a `do` looks for its end, and takes a `break` on the
     /// way there for one that is made (interp_o_word.cc).
     both: bool,
 }
@@ -112,7 +112,7 @@ impl Writer {
         self.o_words.subs.contains(name)
     }
 
-    /// Writes the subprograms of O words, behind the comments with which the main program begins; how many of its
+    /// Writes the subprograms of O words, after the comments with which the main program begins; how many of its
     /// statements those are.
     pub(crate) fn o_subs(&mut self, main: &[Stmt], sink: &mut Sink) -> usize {
         let waiting = std::mem::take(&mut self.o_words.waiting);
@@ -131,7 +131,7 @@ impl Writer {
         let known =
             self.words.preamble.as_ref().and_then(|preamble| preamble.units()).or(self.words.assumed.units);
         known.into_iter().for_each(|units| self.words.units_stated[units as usize] = true);
-        // They are passed over where they stand: what is in force there stays.
+        // They are passed over where they stand: what is active there stays.
         let preamble = self.words.preamble.take();
         let (force, tracker, held) = (self.words.active, self.words.tracker.clone(), self.held.take());
         let (residue, residual, named, lost) =
@@ -267,7 +267,7 @@ impl Writer {
         }
     }
 
-    /// A label that no other block has: behind the number of the subprogram that it stands in.
+    /// A label that no other block has: after the number of the subprogram that it stands in.
     fn o_label(&mut self) -> u32 {
         let o = &mut self.o_words;
         let first = o.sub.as_deref().and_then(|sub| sub.parse::<u32>().ok()).map_or(1, |number| number + 1);
@@ -293,7 +293,7 @@ impl Writer {
         Ok(())
     }
 
-    /// The blocks of a decision or a loop.
+    /// The blocks of a branch or a loop.
     fn o_inner(&mut self, body: &[Stmt], stmt: &Stmt, sink: &mut Sink) {
         let split = self.words.split;
         self.body(body, sink);
@@ -315,7 +315,7 @@ impl Writer {
         self.o_words.open.pop();
     }
 
-    /// A decision or a loop.
+    /// A branch or a loop.
     pub(crate) fn o_structure(
         &mut self,
         control: &Control,
@@ -343,7 +343,7 @@ impl Writer {
                 self.o_loop(label, [true, true, true], body, stmt, sink);
                 self.o_line(&format!("o{label} endwhile"), sink)
             }
-            // A loop of `do` is left behind its first turn where one of `while` has been left by `break` before.
+            // A loop of `do` is left after its first turn where one of `while` has been left by `break` before.
             Control::Until { condition, body } if self.o_words.left => {
                 self.o_head(&format!("o{label} while [1]"), sink)?;
                 self.o_loop(label, [true, false, true], body, stmt, sink);
@@ -401,7 +401,7 @@ impl Writer {
         self.o_line(&format!("o{label} endif"), sink)
     }
 
-    /// A turn of a `do` that is left keeps a mark set, by which the next `repeat` is begun anew at its end.
+    /// An iteration of a `do` that is left keeps a mark set, by which the next `repeat` is begun again at its end.
     fn undisturbed(&self) -> Result<(), Fault> {
         match self.o_words.turned && self.o_words.repeats {
             true => Err(cannot_compute(RunTimeFlow::LoopBesideLeft)),

@@ -44,10 +44,10 @@ pub struct Diff {
     /// The machine of B
     #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
     pub b_machine: Option<String>,
-    /// Decide a question that the dictionary of A leaves open
+    /// Set an option of the dictionary of A
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
     pub a_option: Vec<(String, String)>,
-    /// Decide a question that the dictionary of B leaves open
+    /// Set an option of the dictionary of B
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
     pub b_option: Vec<(String, String)>,
     /// Where both begin.
@@ -102,7 +102,7 @@ pub struct Diff {
     #[arg(long, help_heading = "How the result looks")]
     pub schema: bool,
 
-    /// How much is told.
+    /// How much ncc reports.
     #[command(flatten)]
     pub telling: Verbosity,
 }
@@ -145,7 +145,7 @@ pub struct GitDiff {
     /// Dialect of the programs [default: recognised]
     #[arg(long, value_name = "DIALECT")]
     pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
+    /// Set an option of the dialect's dictionary
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     pub from_option: Vec<(String, String)>,
     /// Show every difference, not only the first ten

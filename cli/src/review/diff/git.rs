@@ -135,7 +135,7 @@ fn of_texts(known: &DialectRegistry, versions: [&str; 2], path: &str) -> Option<
 fn differences(sides: &mut [Side; 2], most: usize, err: &mut dyn WriteColor) -> std::io::Result<String> {
     let found = motion(sides, None)?;
     for (side, course) in sides.iter_mut().zip(&found.courses) {
-        // What cannot be told changes nothing about what was found.
+        // What cannot be reported changes nothing about what was found.
         let _ = questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err);
     }
     let mut out = Vec::new();

@@ -41,7 +41,7 @@ const SHOWN: usize = 10;
 /// Runs the verb.
 ///
 /// # Errors
-/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on `err`.
+/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is reported on `err`.
 pub fn run(args: &Diff, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;

@@ -291,7 +291,7 @@ fn normal(line: &[u8], settings: &Settings, rules: &Rules, bare: &[bool; 26], ou
     }
 }
 
-/// Passes over a block number; the mark of a block that can be skipped stays.
+/// Passes over a block number; the mark of a block with block skip stays.
 fn after_number(line: &[u8], letter: Option<char>, skip: &[u8], out: &mut Vec<u8>) -> usize {
     let blanks = |at: usize| at + line[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
     let digits = |at: usize| at + line[at..].iter().take_while(|b| b.is_ascii_digit()).count();

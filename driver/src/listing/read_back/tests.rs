@@ -45,7 +45,7 @@ fn every_other_number_is_found_out() {
     for (at, line) in lines.iter().enumerate().skip(6) {
         let Some((name, rest)) = line.split_once('(') else { continue };
         let moves = name.starts_with("STRAIGHT") || name == "ARC_FEED";
-        // Feeds and speeds that nothing uses are said at the end alone.
+        // Feeds and speeds that nothing uses are stated at the end alone.
         let used = moves
             || matches!(name, "DWELL" | "CHANGE_TOOL" | "RIGID_TAP" | "ORIENT_SPINDLE") && at < end
             || name == "START_SPEED_FEED_SYNC";
@@ -109,7 +109,7 @@ fn every_missing_call_is_found_out() {
     ];
     let mut tried = 0;
     for at in (6..lines.len()).filter(|at| counts.iter().any(|name| lines[*at].starts_with(name))) {
-        // One that goes where the tool stands is none, and the operator's switches alone are not compared.
+        // One that goes where the tool is is none, and the operator's switches alone are not compared.
         let switch = lines[at] == "DISABLE_FEED_OVERRIDE()" && !lines[at + 2].starts_with("STRAIGHT_FEED");
         if lines[at - 1] == lines[at] || switch {
             continue;

@@ -1,6 +1,6 @@
 //! Two programs executed and held side by side, under every setting of the block-skip switches.
 //!
-//! Both sides hand their records over in pieces (`side_by_side`). Not here: what is told of it.
+//! Both sides hand their records over in pieces (`side_by_side`). Not here: what is reported of it.
 
 use std::io;
 

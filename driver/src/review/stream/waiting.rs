@@ -18,7 +18,7 @@ pub struct Reading {
     pub table: LineTable,
     /// The statements of a piece.
     pub stmts: Vec<Stmt>,
-    /// Facts taken for granted so far.
+    /// Facts assumed so far.
     pub assumed: Modes,
 }
 

@@ -1,9 +1,9 @@
-//! What a comparison has come to, as it is written down: the document of `--format json`, and the
+//! The result of a comparison, as it is written down: the document of `--format json`, and the
 //! certificate, which are one form. `docs/book/src/reference/certificate.md` describes it, `driver/schema/certificate.schema.json`
 //! is its JSON Schema.
 //!
 //! The number in `version` changes when a field changes its meaning, comes or goes: a certificate is
-//! read back field by field. Not here: how it is told (`text`), how it is checked again (`cert`).
+//! read back field by field. Not here: how it is reported (`text`), how it is checked again (`cert`).
 
 mod making;
 
@@ -70,7 +70,7 @@ pub struct Document {
     pub asked: Asked,
     /// What was compared.
     pub compared: Compared,
-    /// What it came to.
+    /// Its verdict.
     pub verdict: Word,
     /// The differences in one line.
     pub summary: String,
@@ -110,7 +110,7 @@ pub struct Program {
     pub machine: Option<String>,
     /// Every option of the dialect, as it was used.
     pub options: BTreeMap<String, Choice>,
-    /// What was taken for granted of this program alone.
+    /// What was assumed of this program alone.
     pub assumed: Vec<Assumed>,
     /// Rows of its dictionary that nobody has confirmed, and that it uses.
     pub unconfirmed: Vec<Row>,
@@ -138,7 +138,7 @@ pub struct Assumed {
     pub code: String,
     /// It in a few words.
     pub text: String,
-    /// How often it was made.
+    /// How many times it was made.
     pub uses: u64,
 }
 
@@ -150,7 +150,7 @@ pub struct Row {
     pub code: String,
     /// What it is read as.
     pub meaning: String,
-    /// How often the program has it.
+    /// How many times the program has it.
     pub uses: u64,
 }
 
@@ -188,13 +188,13 @@ pub struct Compared {
     pub skip_settings: u32,
     /// Levels of block skip, if not every setting of them was tried.
     pub skip_levels_sampled: Option<u8>,
-    /// Half a unit of the coarser side's last digit.
+    /// Half the coarser side's least increment.
     pub resolution: Halves,
     /// What was not compared, and why.
     pub notes: Vec<String>,
 }
 
-/// Half a unit of the last digit.
+/// Half the least increment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Halves {
@@ -295,7 +295,7 @@ pub struct Mistake {
 }
 
 impl Document {
-    /// What it came to.
+    /// Its verdict.
     pub fn verdict(&self) -> Word {
         self.verdict
     }

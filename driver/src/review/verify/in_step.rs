@@ -7,11 +7,11 @@
 //! ```
 //!
 //! Why that proves the same as two executions: [`Exec::agrees_on_lines`] holds all against each other that plain lines
-//! hang on, and [`same_plain`] that they are the same lines; then both make the same events, and come to one state again.
+//! hang on, and [`same_plain`] that they are the same lines; then both make the same events, and reach one state again.
 //! So a translation is verified, too ([`Verifier::piece`](crate::verify_run::Verifier::piece)). A comparison that passes
 //! over something for what one control has done by itself goes on event by event until that is settled.
 //!
-//! Whatever ends a comparison early is left to `pair`, which compares both programs anew: a difference, a refusal, a
+//! Whatever ends a comparison early is left to `pair`, which compares both programs again: a difference, a refusal, a
 //! program that is kept whole.
 
 use std::io;

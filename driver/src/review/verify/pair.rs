@@ -1,7 +1,7 @@
 //! A pair of programs executed and compared, as strictly as a translation compares what it has written:
 //! in the same generated worlds, under the same settings of the block-skip switches.
 //!
-//! What the source relies on and never says is taken for granted of it. Of the output it is not: what
+//! What the source relies on and never says is assumed of it. Of the output it is not: what
 //! it leaves unsaid is known only where its dialect or its machine's profile settles it, or where a
 //! translation would leave it unsaid too (`shared`); about everything else the worlds disagree. Each
 //! side runs on a thread of its own and hands its events over in pieces, so that memory does not grow
@@ -37,10 +37,10 @@ const AHEAD: usize = 4;
 /// Levels of block skip of which every setting is tried; of more, each alone, pairs, and all.
 const ALL_SETTINGS: u32 = 6;
 
-/// What a comparison has come to.
+/// Verdict of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The same, to half a unit of the coarser side's last digit.
+    /// The same, to half the coarser side's least increment.
     Equal,
     /// The same within the tolerance that was asked for.
     WithinTolerance,
@@ -71,13 +71,13 @@ pub struct Found {
     pub inches: bool,
     /// The largest deviation.
     pub deviation: Option<Deviation>,
-    /// Whether something is further apart than half a unit of the output's own last digit.
+    /// Whether something is further apart than half the output's own least increment.
     pub coarse: bool,
     /// The first difference, and the switches of the source's control under which it shows.
     pub first: Option<(Difference, u16)>,
     /// Whether messages were left out, because one control has none.
     pub muted: bool,
-    /// Parameters of cycles that were taken for granted of both controls.
+    /// Parameters of cycles that were assumed of both controls.
     pub parameters: bool,
 }
 
@@ -206,7 +206,7 @@ fn same_control(sides: &[Side; 2]) -> bool {
 
 /// Facts that hold of the output's control although the output does not say them: what the source
 /// relies on without saying it, where a translation into the output's dialect would not say it either,
-/// or where both are for one control; and what a control has no word for. In the output's numbers.
+/// or where both are for one control; and what a control lacks. In the output's numbers.
 fn shared(job: &Job, source: &Course, one_control: bool) -> Modes {
     let facts = job.machines.maps(job.to.dialect).modes(&source.assumed);
     if one_control {
@@ -225,7 +225,7 @@ fn shared(job: &Job, source: &Course, one_control: bool) -> Modes {
 }
 
 /// Facts that a translation into the output's dialect says at the latest before the first event, or
-/// that always hold there. Of their values nothing is said.
+/// that always hold there. Of their values nothing is stated.
 fn said_by_custom(job: &Job) -> Modes {
     let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
     let mut said = to;
@@ -312,7 +312,7 @@ struct Done {
 }
 
 impl Done {
-    /// Of comparisons that have come to the end.
+    /// Of comparisons that have reached the end.
     fn of(comparisons: &[Comparison]) -> Done {
         let deviations = comparisons.iter().filter_map(Comparison::deviation);
         Done {

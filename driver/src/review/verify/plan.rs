@@ -15,7 +15,7 @@ use crate::review::stream::Unsaid;
 pub(super) struct Plan {
     pub(super) worlds: Vec<[World; 2]>,
     pub(super) starts: Vec<[Nanos; AXES]>,
-    /// The tool that is in the spindle of both, as far as the source's T code is stated.
+    /// The tool in the spindle of both, as far as the source's T code is stated.
     pub(super) tool: Option<u32>,
     pub(super) muted: bool,
     /// With how many digits values stand in messages that have none too many.

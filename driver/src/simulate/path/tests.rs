@@ -1,4 +1,4 @@
-//! The moves of programs with places of the machine and with tilted planes.
+//! The moves of programs with machine coordinates and with tilted planes.
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -184,7 +184,7 @@ fn a_plane_must_be_turned_back() {
     let level = "G68.2 X0 Y0 Z0 I0 J0 K0\nG53.1\nG0 X1. Y1.\nG43 H1 Z5.\n";
     assert_eq!(refused(start, level), None);
     assert_eq!(refused(start, &format!("{level}G69\nG0 X2. Y2. Z5.\n")), None);
-    // That is an assumption, which is told.
+    // That is an assumption, which is reported.
     assert!(after(start, level).straightened);
     assert!(!after(start, "G0 B0 C0\nX1. Y1.\nG43 H1 Z5.\n").straightened);
 }

@@ -164,7 +164,7 @@ mod tests {
         (kept.0, course.blocks, course.bounds, course.refused)
     }
 
-    /// Lines of tables are told with the times of statements: blocks under a level of block skip that is off are such.
+    /// Lines of tables are reported with the times of statements: blocks under a level of block skip that is off are such.
     #[test]
     fn lines_of_tables_have_the_times_of_statements() {
         let line = |n: usize| match n % 11 {

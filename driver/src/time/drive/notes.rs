@@ -17,7 +17,7 @@ use crate::machines::pair::Answer;
 use crate::time::modes::{Followed, Length};
 
 impl<'d> Drive<'d> {
-    /// Notes a block of a contour, and contours that the tool's centre is not followed along.
+    /// Notes a block of a contour, and contours that the tool centre is not followed along.
     pub(super) fn note_contour(&mut self, span: Span, place: Place, said: &Said) {
         self.course.follows_centre |= self.exec.follows_centre();
         let known = self.course.as_programmed.len();
@@ -117,7 +117,7 @@ impl<'d> Drive<'d> {
         }
     }
 
-    /// Looks through statements for what is to be told, or known before they are executed.
+    /// Looks through statements for what is to be reported, or known before they are executed.
     pub(super) fn look(&mut self, stmts: &[Stmt]) {
         for stmt in stmts {
             self.course.skip_levels |= stmt.skip.map_or(0, |level| 1 << level);

@@ -70,13 +70,13 @@ fn the_maps_of_the_profiles_are_verified() {
 #[test]
 fn a_wrong_map_is_found_by_the_verification() {
     fn swap<T: Ord + Copy>(map: &mut Option<BTreeMap<T, T>>, a: T, b: T) {
-        let map = map.as_mut().expect("a map in force");
+        let map = map.as_mut().expect("an active map");
         let (x, y) = (map[&a], map[&b]);
         map.insert(a, y);
         map.insert(b, x);
     }
     fn put(map: &mut Option<BTreeMap<u32, u32>>, from: u32, to: u32) {
-        map.as_mut().expect("a map in force").insert(from, to);
+        map.as_mut().expect("an active map").insert(from, to);
     }
     type Wrong = (&'static str, fn(&mut Maps));
     let wrongs: [Wrong; 9] = [
@@ -137,7 +137,7 @@ fn with_a_map_both_sides_are_executed() {
     assert!(level, "nothing would be shown");
 }
 
-/// What differs behind the first pieces is seen on the second thread too, and ends the attempt.
+/// What differs after the first pieces is seen on the second thread too, and ends the attempt.
 #[test]
 fn a_difference_on_a_second_thread_ends_the_attempt() {
     let job = job();
@@ -201,7 +201,7 @@ fn a_tool_by_name_gets_the_number_of_the_target() {
             maps.tool_names.insert("mill".into(), 99);
         });
         assert_eq!(told(&other), [601], "{both}");
-        // One that the target's machine has no number for cannot be said.
+        // One that the target's machine has no number for cannot be stated.
         assert!(told(&named(both, |maps| maps.tool_names.clear())).contains(&501), "{both}");
     }
 }

@@ -1,14 +1,14 @@
 //! Stretches of plain moves of programs that are kept whole: executed once for both sides.
 //!
 //! ```text
-//! source: X10. | output: X10    one state, the same words: one execution stands for both
+//! source: X10. | output: X10    one state, the same words: one execution counts for both
 //! ```
 //!
 //! Why that proves the same as two executions: a control is a function of its state and of the statement, and events are
 //! made of nothing else. Where both states agree in all that a plain move reads (`Exec::agrees_on_lines`), and both statements say
-//! the same ([`same_plain`]), both sides make the same event and come to states that agree again.
+//! the same ([`same_plain`]), both sides make the same event and reach states that agree again.
 //!
-//! Words that are computed are there as what they are worth on each side: each program's own expressions, with its own
+//! Words that are computed are there as their values on each side: each program's own expressions, with its own
 //! variables. No move gives a variable a value, so that what the next ones are worth is known before they are executed; and
 //! a statement that has no value ends the ones that are looked at, so that the fault is found where it is.
 
@@ -65,7 +65,7 @@ mod tests {
     use crate::job::Job;
     use crate::stretches::{SHORTEST, Words, pack, stretches};
 
-    /// A loop keeps the program whole; behind it are plain moves.
+    /// A loop keeps the program whole; after it are plain moves.
     fn program(moves: &str) -> String {
         format!(
             "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n\
@@ -102,7 +102,7 @@ mod tests {
         }
     }
 
-    /// The same of moves whose words are computed: what is compared is what they are worth.
+    /// The same of moves whose words are computed: what is compared is their values.
     #[test]
     fn a_computed_move_that_is_worth_something_else_is_seen() {
         let set = "#2=0.25\n";

@@ -1,5 +1,5 @@
 //! Values for what a program reads and has not set: the same in both programs, by the variables' names.
-//! They are made of the numbers of the program itself, so that its decisions go both ways. A local variable may have none.
+//! They are made of the numbers of the program itself, so that both sides of its branches run. A local variable may have none.
 
 use ncc_ir::computed::free_variables::{free_variables, literals};
 use ncc_ir::expr::Var;
@@ -17,7 +17,7 @@ const LEFT_THERE: f64 = -791.3;
 /// Values that any variable may have.
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
-/// What may be taken for granted of a source's numbers, alone and together.
+/// What may be assumed of a source's numbers, alone and together.
 pub(super) const READINGS: [&[Assumption]; 7] = [
     &[Assumption::Apart],
     &[Assumption::NotNegative],
@@ -103,7 +103,7 @@ impl<'g> Given<'g> {
 
 impl Given<'_> {
     /// The value of one of the output's variables: that of the source's. What the source does not have, or leaves to
-    /// be set first, holds something there, where a control has no variables without a value.
+    /// be set first, holds something there, where a control has no empty variables.
     pub fn value_there(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
         let source = self.renamed.source(var).unwrap_or(var);
         let own = self.value(source, seed, set);

@@ -1,11 +1,11 @@
-//! Codes in force that a text saves in variables and puts back, and numbers that it computes codes and
-//! places of tables from.
+//! Codes active that a text saves in variables and restores, and numbers that it computes codes and
+//! table entries from.
 //!
 //! Each reader notes them as it goes (`rows`, `numbers`, `back`). [`paths`] looks at the whole text when it
 //! has been read.
 //!
 //! ```text
-//! #10 = #4001    ...    G#10    the code of group 1 that was in force, put back
+//! #10 = #4001    ...    G#10    the code of group 1 that was active, restored
 //! ```
 //!
 //! Not here: what a text computes besides (`values` of each reader).
@@ -18,10 +18,10 @@ use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 use ncc_ir::unsupported::{CodeUnsupported, TableUnsupported};
 
-/// What the text saves of the modes in force and puts back.
+/// What the text saves of the active modes and restores.
 #[derive(Debug, Default)]
 pub(crate) struct Saved {
-    /// Variables that are given the code in force of a group, each in its program, in the order of the text.
+    /// Variables that are given the active code of a group, each in its program, in the order of the text.
     pub(crate) rows: Vec<(Text, Var, &'static SystemRow)>,
     /// Variables that are given a whole number, in the same way.
     pub(crate) numbers: Vec<(Text, Var, i64)>,
@@ -37,7 +37,7 @@ pub(crate) struct Saved {
 /// What tells which group a code is of.
 #[derive(Debug)]
 pub(crate) enum GroupSource {
-    /// A variable that has the code in force of it.
+    /// A variable that has the active code of it.
     Saved(&'static SystemRow, Var),
     /// The range of its number.
     Range,

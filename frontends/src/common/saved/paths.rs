@@ -1,4 +1,4 @@
-//! What is known of variables on the ways through a text: of which group they have the code in force, or in which range
+//! What is known of variables on the ways through a text: of which group they have the active code, or in which range
 //! the whole number is that they have. A loop is gone round until nothing new comes of it; what still changes then is
 //! not known there.
 
@@ -24,7 +24,7 @@ use crate::batch::Batch;
 /// table of work offsets places on most controls.
 const TURNS: u32 = 120;
 
-/// Turns of all loops of a program that are followed so: loops within loops come to many.
+/// Iterations of all loops of a program that are followed so: nested loops have many.
 const ALL_TURNS: u32 = 20_000;
 
 /// How deep in calls of calls arguments are followed.
@@ -33,7 +33,7 @@ const ROUNDS: u32 = 3;
 /// What is known of a variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Holds {
-    /// It has the code in force of a group, by the place of a row that saves it.
+    /// It has the active code of a group, by the place of a row that saves it.
     Code(usize),
     /// It has a whole number.
     Whole(Range),
@@ -46,7 +46,7 @@ type Ranges = BTreeMap<u32, Range>;
 type Known = BTreeMap<String, Holds>;
 
 impl Saved {
-    /// The text is over: whether each such variable has its value from its group on every way to the code.
+    /// The text is over: whether each such variable has its value from its group on every path to the code.
     pub(crate) fn check(&self, out: &mut Batch) {
         for (span, code, var) in &self.stated {
             let main = |own: &Text| own.is_empty() || !matches!(var, Var::Local(_));
@@ -148,7 +148,7 @@ struct Set {
     vars: BTreeSet<String>,
     /// One whose number is computed.
     any: bool,
-    /// Whether a turn of a loop ends from within.
+    /// Whether an iteration of a loop ends from within.
     leaves: bool,
     /// The programs that they call.
     calls: BTreeSet<Text>,
@@ -214,7 +214,7 @@ struct PathAnalysis<'s> {
     labels: BTreeMap<Text, Known>,
     wrong: Vec<(Span, Fault)>,
     found: Found,
-    /// Turns of loops that have been followed.
+    /// Iterations of loops that have been followed.
     turns: u32,
 }
 
@@ -245,7 +245,7 @@ impl PathAnalysis<'_> {
         }
     }
 
-    /// The group whose code in force a value is.
+    /// The group whose code active a value is.
     fn group(&self, value: &Expr) -> Option<usize> {
         self.saved.rows.iter().position(|(_, _, row)| row.value(0, "").as_ref() == Some(value))
     }
@@ -393,8 +393,8 @@ impl PathAnalysis<'_> {
         }
     }
 
-    /// What is known wherever a turn of a loop begins, and wherever one ends; `head` must hold before a turn, and `until`
-    /// not behind it for another one.
+    /// What is known wherever an iteration of a loop begins, and wherever one ends; `head` must hold before a turn, and `until`
+    /// not after it for another one.
     fn turns(
         &mut self,
         [head, until]: [Option<&Expr>; 2],
@@ -454,7 +454,7 @@ fn worth(value: &Expr, known: &Known) -> Option<Range> {
     })
 }
 
-/// What is known where a condition holds, or does not; `None` where it never comes to that.
+/// What is known where a condition holds, or does not; `None` where that never happens.
 fn where_it(condition: &Expr, holds: bool, known: Known) -> Option<Known> {
     let Expr::Node(node) = condition else { return Some(known) };
     let (operator, a, b) = match &**node {

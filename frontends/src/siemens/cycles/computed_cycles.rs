@@ -3,7 +3,7 @@
 //! What a written argument is refused for is found when the program runs: planes that are not one above the other end
 //! it with the cycle's own alarm 61101 (reference, 9).
 //!
-//! Refused by name: other arguments than planes and depths.
+//! Refused: other arguments than planes and depths.
 
 use ncc_dialects::{CallKind, ParameterRole as Role};
 use ncc_ir::canon::Fact;

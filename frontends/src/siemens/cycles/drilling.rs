@@ -113,7 +113,7 @@ impl Lower {
     }
 
     /// Refuses what the newer lists of arguments append, where it says something else than the arguments before it and
-    /// the plane in force.
+    /// the active plane.
     fn modes(&mut self, a: &Arguments, out: &mut Batch) {
         use ParameterRole as Role;
         let plane = self.whole_of(a, Role::WorkingPlane);
@@ -253,7 +253,7 @@ impl Lower {
             }
             self.push(block, Op::StartCycle(cycle.clone()), out);
             self.idle_tap = says_speed;
-            // Whether it has made a hole or not: which feed is in force behind it must be said.
+            // Whether it has made a hole or not: which feed is active after it must be stated.
             self.hole_made(&cycle);
             self.state.cycle = ModalCall::Active(cycle);
             return;
@@ -306,7 +306,7 @@ impl Lower {
         self.push(at, Op::EndCycle, out);
     }
 
-    /// Calls the cycle in force up again if a feed was said since, which is not its own.
+    /// Calls the active cycle up again if a feed was stated since, which is not its own.
     pub(in crate::siemens) fn call_up_again(&mut self, cycle: &Cycle, at: Span, out: &mut Batch) {
         self.idle_tap = false;
         if std::mem::take(&mut self.recall) {
@@ -314,7 +314,7 @@ impl Lower {
         }
     }
 
-    /// Which feed is in force after a cycle that has its own is not known.
+    /// Which feed is active after a cycle that has its own is not known.
     pub(in crate::siemens) fn hole_made(&mut self, cycle: &Cycle) {
         if cycle.feed.is_some() {
             (self.state.modes.feed, self.state.spent) = (Know::Unsaid, false);

@@ -1,8 +1,8 @@
 //! Lowering of patterns of hole positions that are called with arguments.
 //!
 //! The positions are not made here: a pattern stays a pattern. A control may begin a line or a grid
-//! where it is nearest to the tool; that it takes the order of the arguments is an assumption that is
-//! told, unless the tool stands at the first hole.
+//! where it is nearest to the tool; that it takes the order of the arguments is an assumption that is reported,
+//! unless the tool stands at the first hole.
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole};
 use ncc_ir::canon::{Axis, Plane};
@@ -32,7 +32,7 @@ const MOST_HOLES: i64 = 9999;
 const ALL_ABSOLUTE: i64 = 111_111_111;
 
 impl Lower {
-    /// A pattern that is called: the cycle in force at each of its positions.
+    /// A pattern that is called: the active cycle at each of its positions.
     pub(in crate::siemens) fn pattern(
         &mut self,
         row: &'static CallRow,
@@ -314,7 +314,7 @@ fn share(count: u32) -> Num {
     Num::from_nanos(360 * ONE / i64::from(count.max(1)), 9, Unit::Degree)
 }
 
-/// Whether a value is none that may come to 0, whatever its variables hold.
+/// Whether a value can never be 0, whatever its variables hold.
 fn is_never_zero(value: &Expr) -> bool {
     let Expr::Node(node) = value else { return value.literal().is_some_and(|n| !n.is_zero()) };
     match &**node {

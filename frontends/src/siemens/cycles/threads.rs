@@ -95,7 +95,7 @@ impl Lower {
         Some(Some(found))
     }
 
-    /// The unit of a pitch that has none of its own: the machine's, or that in force.
+    /// The unit of a pitch that has none of its own: the machine's, or the active one.
     fn pitch_unit(&mut self, active: Unit, at: Span, out: &mut Batch) -> Unit {
         let machine = if self.settings.get("feed_unit") == "inch" { Unit::Inch } else { Unit::Mm };
         let known = match (active, self.state.modes.units.value()) {
@@ -145,10 +145,10 @@ impl Lower {
         Some((CycleKind::Tap(Box::new(tap)), speed))
     }
 
-    /// The speed that a rigid tap has of its own is set before it is called up.
+    /// The speed that a rigid tap has of its own is set before it is activated.
     pub(in crate::siemens) fn speed_of_tap(&mut self, speed: Option<Num>, at: Span, out: &mut Batch) {
         let Some(speed) = speed else { return };
-        // The cycle that was modal is over before that: its own speed is what it was called up with.
+        // The cycle that was modal is over before that: its own speed is what it was activated with.
         if matches!(self.state.cycle, ModalCall::Active(_)) {
             self.push(at, Op::EndCycle, out);
         }

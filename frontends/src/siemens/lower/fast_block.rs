@@ -118,7 +118,7 @@ impl Lower {
         }
     }
 
-    /// Whether nothing has to be said before the block at hand, and told behind it, because a switch may skip it.
+    /// Whether nothing has to be stated before the block at hand, and reported after it, because a switch may skip it.
     fn can_be_skipped(&self, state: &SiemensState, moved: Option<Motion>) -> bool {
         let said = match state.modes.motion {
             Know::Said(motion) => moved == Some(motion),

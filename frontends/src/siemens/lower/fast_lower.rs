@@ -58,7 +58,7 @@ impl Lower {
             Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
             _ => return None,
         };
-        // The statements of a move say what is in force only after one has been looked at.
+        // The statements of a move say what is active only after one has been looked at.
         let moved = self.moved == Some(if feed { Motion::Feed } else { Motion::Traverse });
         let no_feed = feed && state.modes.feed == Know::Unsaid;
         if no_feed
@@ -90,7 +90,7 @@ impl Lower {
         state.cycle == ModalCall::None && self.is_settled_beside_cycle(state)
     }
 
-    /// Whether a block of nothing but words of a plane's axes is a hole of the cycle in force, and every fact is settled
+    /// Whether a block of nothing but words of a plane's axes is a hole of the active cycle, and every fact is settled
     /// that it depends on: then it says no more than the hole, and leaves the state as it is. Gives the plane.
     fn plane_of_holes(&self) -> Option<Plane> {
         let (state, modes) = (&self.state, &self.state.modes);
@@ -102,9 +102,9 @@ impl Lower {
             && self.repeated_blocks.knows(PLANE)
             && modes.feed != Know::Unsaid
             && modes.feed_mode.value() != Some(FeedMode::InverseTime)
-            // With a feed of its own, nobody knows behind a hole which is in force.
+            // With a feed of its own, nobody knows after a hole which is active.
             && cycle.feed.is_none();
-        // The first hole behind these says more.
+        // The first hole after these says more.
         let called = !self.recall && !self.idle_tap;
         modes.plane.value().filter(|_| settled && called)
     }
@@ -138,7 +138,7 @@ impl Lower {
         let basic = self.usual.basic;
         match (state.scaled.value(), state.scaled) {
             (Some(true), _) => Some(unit_of(state.modes.units.fact())),
-            // Where the units in force are other ones, it is told that the feed is not in them.
+            // Where the active units are other ones, it is told that the feed is not in them.
             (Some(false), _) | (None, Know::Unsaid) if state.modes.units.value() == Some(basic) => {
                 Some(unit_of(Fact::Known(basic)))
             }

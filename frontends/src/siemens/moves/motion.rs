@@ -1,5 +1,5 @@
 //! Lowering of moves: lines, and arcs in all the forms that the control knows; what a position means
-//! while a cycle is in force.
+//! while a cycle is active.
 //!
 //! A position under `MCALL` at G0 with words of the plane is a hole. Any other move is made first,
 //! with the cycle off, and the hole where it ends. Under `MCALL` with a subprogram, a call follows
@@ -107,11 +107,11 @@ impl Lower {
                     let to = self.point(true, None, words, src, out);
                     self.push_to(polar, block, Op::Hole(Move { to, said: false }), out);
                 } else if cycle.feed.is_some() && self.state.modes.motion.value() != Some(Motion::Traverse) {
-                    // The way there has the program's feed; the cycle's is taken up in the hole.
+                    // The way there has the program's feed; the cycle's takes effect in the hole.
                     let what = MoveUnsupported::PositionAtFeed;
                     self.not_supported(&src.text(block), what, block, out);
                 } else if self.idle_tap {
-                    // On the way there the spindle still has the speed that was said before.
+                    // On the way there the spindle still has the speed that was stated before.
                     let what = MoveUnsupported::TapPosition;
                     self.idle_tap = false;
                     self.not_supported(&src.text(block), what, block, out);
@@ -157,14 +157,14 @@ impl Lower {
         Axis::ALL.iter().all(|a| *a == first || *a == second || words.get(a.letter()).is_none())
     }
 
-    /// Axis words that do whatever is in force when the program runs.
+    /// Axis words that do whatever is active when the program runs.
     fn position(&mut self, words: &mut Words, block: Span, src: Source, out: &mut Batch) {
         let Ok(polar) = self.polar_words(words, src, out) else { return };
         let to = self.point(true, None, words, src, out);
         self.push_to(polar, block, Op::Position(Move { to, said: false }), out);
     }
 
-    /// The move itself; gives what is in force after it, if that is known.
+    /// The move itself; gives what is active after it, if that is known.
     fn path(
         &mut self,
         said: bool,
@@ -272,7 +272,7 @@ impl Lower {
         to
     }
 
-    /// Which way round rotary axes go in a line.
+    /// The direction in which rotary axes turn in a line.
     fn rotary_ways(&mut self, machine: Option<Code>, words: &mut Words, src: Source, out: &mut Batch) {
         let mut directions = [None; 3];
         let mut at: Option<Span> = None;

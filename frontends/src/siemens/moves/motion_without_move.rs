@@ -1,6 +1,6 @@
-//! A code of motion in a block without a move (`G1 F200`): nothing says it but the next move. Where what is in force
-//! is not known behind it (behind a call, at a label, a loop or a branch, at blocks that a switch may skip), axis words
-//! alone do what is in force when the program runs: before such a place a move to nowhere says it.
+//! A code of motion in a block without a move (`G1 F200`): nothing says it but the next move. Where what is active
+//! is not known after it (after a call, at a label, a loop or a branch, at blocks that a switch may skip), axis words
+//! alone do what is active when the program runs: before such a place a move to nowhere says it.
 //!
 //! Refused: an arc, or a thread, that is not said by a move before such a place. It has no way to nowhere.
 
@@ -14,7 +14,7 @@ use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::{ModalCall, Motion};
 
 impl Lower {
-    /// Control leaves here, or may come here from elsewhere: what is in force must have been said.
+    /// Control leaves here, or may come here from elsewhere: what is active must have been stated.
     pub(in crate::siemens) fn leave_motion(&mut self, at: Span, out: &mut Batch) {
         if let Some(op) = self.untold_motion(at, out) {
             self.push(at, op, out);
@@ -44,7 +44,7 @@ impl Lower {
             self.state.cycle,
             ModalCall::Active(_) | ModalCall::Inherited { .. } | ModalCall::Lost { .. }
         ) {
-            // A move to nowhere would be one of its positions. Where they are reached in rapid, nothing is to be said.
+            // A move to nowhere would be one of its positions. Where they are reached in rapid, nothing is to be stated.
             if motion != Motion::Traverse && std::mem::take(&mut self.motion_without_move) {
                 let what = MoveUnsupported::MotionUnderCycle;
                 self.not_supported(word_of(motion), what, at, out);

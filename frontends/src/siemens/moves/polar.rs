@@ -1,6 +1,6 @@
 //! Lowering of poles, and of points by radius and angle about them.
 //!
-//! Refused by name, because no source says what is meant: an angle without `AC` or `IC` under G91, polar
+//! Refused, because no source says what is meant: an angle without `AC` or `IC` under G91, polar
 //! words beside coordinates of the plane, a pole from before a change of the plane or of frames, the
 //! caller's pole, and an arc about a pole whose place the text does not say.
 
@@ -139,7 +139,7 @@ impl Lower {
                 Fact::Known(Distance::Incremental) => {
                     return refuse(self, PolarUnsupported::AngleUnderG91, given.span, out);
                 }
-                // G91, which leaves it open, may be in force.
+                // G91, which leaves it open, may be active.
                 Fact::Entry => {
                     self.fault(Fault::EntryFactNeeded { fact: ModeName::Distance }, given.span, out);
                     return Err(());

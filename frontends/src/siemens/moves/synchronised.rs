@@ -22,7 +22,7 @@ use crate::siemens::siemens_state::ModalCall;
 const LEADS: [u8; 3] = *b"IJK";
 
 impl Lower {
-    /// A thread, whose code is in force.
+    /// A thread, whose code is active.
     pub(in crate::siemens) fn thread(
         &mut self,
         thread: Thread,
@@ -55,7 +55,7 @@ impl Lower {
         self.push_thread(to, pitch, turn, block, out);
     }
 
-    /// A move with a compensating chuck, at feed and speed in force.
+    /// A move with a compensating chuck, at feed and speed active.
     pub(in crate::siemens) fn chuck_thread(
         &mut self,
         code: &Code,
@@ -78,7 +78,7 @@ impl Lower {
         self.push(block, Op::SynchronisedFeed(Box::new(thread)), out);
     }
 
-    /// The one axis that a thread goes along, and where to.
+    /// The one axis of a thread, and its end point.
     fn along(
         &mut self,
         other: bool,

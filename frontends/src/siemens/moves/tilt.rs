@@ -1,9 +1,9 @@
-//! Lowering of the transformation that keeps the tool's tip where it is, and of swivelled planes.
+//! Lowering of the transformation that keeps the tool tip where it is, and of swivelled planes.
 //!
-//! A plane is read where its call sets it anew, by turns about three different axes one after the other, and
+//! A plane is read where its call sets it again, by turns about three different axes one after the other, and
 //! turns the tool towards a stated side or not at all. Before it turns the tool it may retract along Z, or along
 //! Z and then along X and Y: to where is data of the machine, which is taken to be its zero (an option, told).
-//! Refused by name: further transformations and their parameters, planes that are added, other ways of stating
+//! Refused: further transformations and their parameters, planes that are added, other ways of stating
 //! angles, a second shift, a status that is about the other direction than the stated one, and retracting along the tool, whose way follows from the limits of the axes.
 
 use ncc_dialects::Quantity;

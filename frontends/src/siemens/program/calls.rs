@@ -4,12 +4,12 @@
 //! by that number; `L012` is another subprogram and keeps its whole name, as all others do, in
 //! capitals.
 //!
-//! A subprogram that is called after each move becomes a call behind every block with motion. What it hands over is
+//! A subprogram that is called after each move becomes a call after every block with motion. What it hands over is
 //! computed from variables of the calling program, which do not change meanwhile, so that it is one thing when it is
-//! worked out.
+//! computed.
 //!
-//! Refused by name: calls by path, calls while a subprogram is called after each move
-//! (it would be called after the moves in them as well), and subprograms that leave a cycle in force.
+//! Refused: calls by path, calls while a subprogram is called after each move
+//! (it would be called after the moves in them as well), and subprograms that leave an active cycle.
 
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Fault, ModeName};
@@ -41,7 +41,7 @@ pub(in crate::siemens) enum Handing<'h> {
     AfterMove(&'h [Option<Typed>]),
 }
 
-/// Whether what stands behind `MCALL` is a word such as `M9`.
+/// Whether what stands after `MCALL` is a word such as `M9`.
 fn is_word(name: &str) -> bool {
     matches!(name.as_bytes(), [letter, digit, ..] if *letter != b'L' && letter.is_ascii_alphabetic() && digit.is_ascii_digit())
 }
@@ -239,7 +239,7 @@ impl Lower {
             self.state.cycle = ModalCall::Refused;
             return;
         }
-        // A cycle that was in force is off; the call itself says nothing.
+        // A cycle that was active is off; the call itself says nothing.
         if matches!(self.state.cycle, ModalCall::Active(_)) {
             self.moved = None;
             self.push(called.span, Op::EndCycle, out);
@@ -248,7 +248,7 @@ impl Lower {
         self.state.cycle = ModalCall::Subprogram(Box::new(AfterMove { name: name.into(), given }));
     }
 
-    /// The call behind a block with motion, as a block of its own.
+    /// The call after a block with motion, as a block of its own.
     pub(in crate::siemens) fn call_after_move(
         &mut self,
         after: &AfterMove,
@@ -322,7 +322,7 @@ impl Lower {
             let what = CallUnsupported::UnderOtherCycle;
             return self.not_supported(&src.text(at), what, at, out);
         }
-        // What a subprogram finds in force that nothing has said is not what the text says.
+        // What a subprogram finds active that nothing has said is not what the text says.
         self.as_it_begins(out);
         out.whole = true;
         let times = times as u32;
@@ -372,7 +372,7 @@ impl Lower {
         }
     }
 
-    /// The subprogram that is read goes back to its caller.
+    /// The subprogram that is read returns to its caller.
     pub(in crate::siemens) fn leave(&mut self, at: Span, out: &mut Batch) {
         self.motion_goes_on(&[self.state.modes.motion], out);
         if self.state.cycle != self.entry && self.state.cycle != ModalCall::Refused {
@@ -496,7 +496,7 @@ impl Lower {
         self.refresh();
     }
 
-    /// What is called runs under what the text has not said: as the program begins, where that is taken for granted.
+    /// What is called runs under what the text has not said: as the program begins, where that is assumed.
     fn as_it_begins(&mut self, out: &mut Batch) {
         let power_on = &self.settings.dialect.power_on;
         let (units, plane) = (self.state.modes.units, self.state.modes.plane);
@@ -510,14 +510,14 @@ impl Lower {
         }
     }
 
-    /// Under a cycle, positions are taken for rapid where the motion in force is not known.
+    /// Under a cycle, positions are taken for rapid where the active motion is not known.
     pub(in crate::siemens) fn take_rapid(&mut self, at: Span, out: &mut Batch) {
         if self.state.modes.motion == Know::Unsaid && self.motion(at, out).is_ok_and(|m| m.is_some()) {
             return;
         }
         if self.state.modes.motion != Know::Unsaid {
             if self.feed_away {
-                // It is told once.
+                // It is reported once.
                 self.state.modes.motion = Know::Taken(Motion::Traverse);
                 return self.refuse_rapid(at, out);
             }
@@ -529,7 +529,7 @@ impl Lower {
         self.state.modes.motion = Know::Taken(Motion::Traverse);
     }
 
-    /// Control goes elsewhere with such a motion in force: what is taken for rapid there may be none.
+    /// Control goes elsewhere with such an active motion: what is taken for rapid there may be none.
     pub(in crate::siemens) fn motion_goes_on(&mut self, motions: &[Know<Motion>], out: &mut Batch) {
         let at_feed = |motion: &Know<Motion>| motion.value().is_some_and(|motion| motion != Motion::Traverse);
         if motions.iter().any(at_feed) {

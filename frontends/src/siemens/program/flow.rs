@@ -1,13 +1,13 @@
 //! Lowering of the program's own flow: loops, alternatives, labels and jumps.
 //!
-//! A structure is one statement when it has ended; what stands in it is taken out of the statements before. Where
-//! a program can come to from elsewhere (a label that a jump names, the head and the end of a loop) every fact is lost,
-//! as behind a call. Behind an alternative, what both branches leave is known.
+//! A structure becomes one statement when it ends; its body is taken out of the statements before. At a jump target
+//! (a label that a jump names, the head and the end of a loop) every fact is lost, as after a call. After an IF, the
+//! facts are those that both branches leave.
 //!
 //! A jump looks for its label in its direction, the nearest first, and labels may stand there twice. Which label is
 //! meant is found when the program has been read; labels of one name then get names of their own.
 //!
-//! Refused by name: jumps that are computed, jumps to the start of a subprogram, structures that a switch may skip,
+//! Refused: jumps that are computed, jumps to the start of a subprogram, structures that a switch may skip,
 //! and a modal cycle or rounding that differs between a jump and its label.
 
 mod structures;
@@ -81,7 +81,7 @@ impl Lower {
         }
     }
 
-    /// Whether blocks may stand behind the end of the program that are executed.
+    /// Whether blocks may stand after the end of the program that are executed.
     pub(in crate::siemens) fn goes_on(&self) -> bool {
         !self.flow.targets.is_empty() || !self.flow.open.is_empty()
     }
@@ -107,7 +107,7 @@ impl Lower {
         }
         self.units(at, out);
         if self.called {
-            // Of all else it has what its caller has in force.
+            // Of all else it has the modes active in its caller.
             return;
         }
         self.distance(at, out);
@@ -129,7 +129,7 @@ impl Lower {
         self.stand.forget();
         self.repeated_blocks.use_all();
         self.forget_texts();
-        // Behind a cycle, what was in force before it is still not known where it was not told.
+        // After a cycle, what was active before it is still not known where it was not told.
         self.cycled &= self.moved.is_none();
         self.moved = None;
     }

@@ -26,7 +26,7 @@ pub(in crate::siemens) struct InPlace {
 pub(in crate::siemens) struct Label {
     pub(in crate::siemens) name: Text,
     pub(in crate::siemens) at: u32,
-    /// What is in force there; `None` for a label that no jump was known to name.
+    /// What is active there; `None` for a label that no jump was known to name.
     pub(in crate::siemens) found: Option<InPlace>,
 }
 

@@ -40,13 +40,13 @@ pub(in crate::siemens) struct OpenStructure {
     pub(in crate::siemens) number: Option<u32>,
     pub(in crate::siemens) comment: Option<Box<Text>>,
     pub(in crate::siemens) found: InPlace,
-    /// Whether feeds count in the units in force, where it begins: so they do in every turn, if they do at its end.
+    /// Whether feeds count in the active units, where it begins: so they do in every iteration, if they do at its end.
     pub(in crate::siemens) scaled: Know<bool>,
 }
 
 #[derive(Debug)]
 pub(in crate::siemens) enum StructureKind {
-    /// With its other branch, what was read before that, and what is in force where the branches begin or ended.
+    /// With its other branch, what was read before that, and what is active where the branches begin or ended.
     If {
         condition: Expr,
         then: Option<Vec<Stmt>>,

@@ -1,15 +1,15 @@
 //! Parameters of subprograms, and what calls hand over to them.
 //!
-//! A subprogram stands behind its calls, as a rule: what its parameters are is put into the calls when the text has
+//! A subprogram stands after its calls, as a rule: what its parameters are is put into the calls when the text has
 //! been read. A value is converted as for an assignment; one that is left out is the parameter's own, or 0.
 //!
 //! A parameter that is the caller's variable itself (`VAR`; Job planning 03/2006, 1.18 and 1.19) is a variable that all
-//! programs see, of that subprogram alone: the call gives it the value of the caller's, which gets its value back behind
+//! programs see, of that subprogram alone: the call gives it the value of the caller's, which gets its value back after
 //! the call. That is the same as long as the subprogram can reach the caller's variable in no other way.
 //!
 //! An array as such a parameter is one of these for each of its elements.
 //!
-//! Refused by name: texts, other arrays, computed indices of arrays that are the caller's own; for `VAR` a value that is no variable or is of another type, one that is left out,
+//! Refused: texts, other arrays, computed indices of arrays that are the caller's own; for `VAR` a value that is no variable or is of another type, one that is left out,
 //! one variable twice, an R parameter that the subprogram uses by its own name, a call that is made several times, and
 //! subprograms that call themselves.
 
@@ -257,7 +257,7 @@ impl Lower {
         };
     }
 
-    /// The text is over: behind the calls of a subprogram with SAVE stands what it gives back.
+    /// The text is over: writes the restored modes after the calls of a subprogram with SAVE.
     pub(in crate::siemens) fn give_back(&mut self, out: &mut Batch) {
         let gives = |procedure: &Procedure| procedure.attributes.contains(&Attribute::GivesBack);
         if !out.procedures.iter().any(gives) {
@@ -284,7 +284,7 @@ impl Lower {
             let takes = handed.parameters.iter().find(|(name, _)| *name == call.name);
             let takes = takes.map_or(&[][..], |(_, takes)| takes);
             if call.given.len() > takes.len() {
-                // One that is not in the text is told as that.
+                // One that is not in the text is reported as that.
                 if !self.repeated_blocks.has_met(&call.name) {
                     continue;
                 }

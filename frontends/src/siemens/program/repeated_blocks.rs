@@ -1,8 +1,8 @@
-//! Blocks that run more than once: what repeated blocks and subprograms find in force.
+//! Blocks that run more than once: what repeated blocks and subprograms find active.
 //!
 //! Statements say what is known of the modes where they stand. A block that is repeated, or a
 //! subprogram that is called from several places, must find there what was found the first time,
-//! or it is refused by name. Subprograms leave the cycle of `MCALL` as they found it.
+//! or it is refused. Subprograms leave the cycle of `MCALL` as they found it.
 //!
 //! Not here: the statements themselves.
 
@@ -28,9 +28,9 @@ pub(in crate::siemens) struct Label {
     name: Text,
     /// Whether it is an end that no label is named for.
     end: bool,
-    /// What was in force before its block.
+    /// What was active before its block.
     before: SiemensState,
-    /// What was in force after its block.
+    /// What was active after its block.
     after: Option<SiemensState>,
     /// Facts that its block or a later one has said.
     said: u8,
@@ -38,7 +38,7 @@ pub(in crate::siemens) struct Label {
     used: u8,
 }
 
-/// Whether a cycle is in force where a subprogram is called.
+/// Whether a cycle is active where a subprogram is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::siemens) enum Under {
     Nothing,
@@ -100,7 +100,7 @@ fn differing(a: &SiemensState, b: &SiemensState) -> u8 {
         | bit(a.cycle != b.cycle, CYCLE)
 }
 
-/// Whether a fact is another one. What was taken for granted since held before as well.
+/// Whether a fact is another one. What was assumed since held before as well.
 fn changed<T: Copy + PartialEq>(before: Know<T>, now: Know<T>) -> bool {
     let taken = matches!((before, now), (Know::Unsaid, Know::Taken(_)));
     before.value() != now.value() && !taken
@@ -111,13 +111,13 @@ fn changed<T: Copy + PartialEq>(before: Know<T>, now: Know<T>) -> bool {
 pub(in crate::siemens) enum NotRepeatable {
     /// No such label before.
     Unknown,
-    /// They would find something else in force.
+    /// They would find something else active.
     Differs,
 }
 
 impl RepeatedBlocks {
     /// Whether nothing comes of relying on these facts, or of saying one of them: no block can be repeated, or it is
-    /// known of every label already that they are said behind it, or relied on.
+    /// known of every label already that they are stated after it, or relied on.
     pub(in crate::siemens) fn knows(&self, facts: u8) -> bool {
         // What the last one knows, all before it do.
         self.labels.last().is_none_or(|label| (label.used | label.said) & facts == facts)
@@ -146,7 +146,7 @@ impl RepeatedBlocks {
         }
     }
 
-    /// The end that stands first behind the last label of this name.
+    /// The end that stands first after the last label of this name.
     pub(in crate::siemens) fn end_behind(&self, from: &str) -> Option<Text> {
         let first = self.labels.iter().rposition(|l| &*l.name == from)?;
         self.labels[first..].iter().find(|l| l.end).map(|l| l.name.clone())
@@ -179,7 +179,7 @@ impl RepeatedBlocks {
         self.labels.iter_mut().for_each(|label| label.used = u8::MAX);
     }
 
-    /// A fact is said.
+    /// A fact is stated.
     pub(in crate::siemens) fn say(&mut self, fact: u8) {
         for label in self.labels.iter_mut().rev() {
             if label.said & fact != 0 {
@@ -253,7 +253,7 @@ impl RepeatedBlocks {
         missing
     }
 
-    /// The text of a subprogram begins; gives what it finds in force, or nothing if it has been met
+    /// The text of a subprogram begins; gives what it finds active, or nothing if it has been met
     /// before.
     pub(in crate::siemens) fn enter(&mut self, name: &str) -> Option<ModalCall> {
         self.labels.clear();

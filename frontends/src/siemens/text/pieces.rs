@@ -102,7 +102,7 @@ fn block(line: &[u8], into: &mut Vec<Piece>) -> LineIs {
     LineIs::Blocks
 }
 
-/// Whether a letter outside of brackets begins a word behind this: not as an operand, which follows an
+/// Whether a letter outside of brackets begins a word after this: not as an operand, which follows an
 /// operator, an assignment or a word of the language. A colon ends a label; where it chains frames, no
 /// sum follows.
 fn begins_word(before: Option<(PieceKind, &[u8])>) -> bool {

@@ -1,11 +1,11 @@
 //! Tokens of a block: a logos lexer over the bytes of one line, and the little that depends on
 //! where a token stands.
 //!
-//! **How words are told apart.** Only the bytes decide, never what a name means:
+//! **How words are distinguished.** Only the bytes decide, never what a name means:
 //! - two letters or underscores begin a *name*, which takes all letters, digits and underscores
 //!   that follow: `CYCLE81`, `CR`, `N_A`, `GOTOF`. Some names are key words;
 //! - any other letter is an *address letter*: `N10G1X10Y20F100` is five words, `L010`, `R1`, `X1`
-//!   are a letter and a number. A sign `=` behind the number makes the number the address's
+//!   are a letter and a number. A sign `=` after the number makes the number the address's
 //!   extension (`X1=10`, `S2=500`): that is the grammar's business;
 //! - `N` before a number is a block number (or the target of a jump);
 //! - a number takes `EX` and an exponent: `1EX5`; `E` alone is an address;
@@ -171,7 +171,7 @@ impl<'t> Tokens<'t> {
         String::from_utf8_lossy(self.raw.slice()).into()
     }
 
-    /// A stretch that is no token. What is open is not closed: that is said, not the sign.
+    /// A stretch that is no token. What is open is not closed: that is stated, not the sign.
     fn unexpected(&self) -> Lexed {
         let start = self.raw.span().start;
         let rest = &self.raw.source()[start..];
@@ -208,7 +208,7 @@ impl<'t> Tokens<'t> {
         self.raw.remainder().iter().take_while(|b| matches!(b, b' ' | b'\t')).count()
     }
 
-    /// The path behind `PCALL`: up to a blank, its arguments or the comment, or in quotes.
+    /// The path after `PCALL`: up to a blank, its arguments or the comment, or in quotes.
     fn path(&mut self) -> Span {
         let blanks = self.blanks();
         let rest = &self.raw.remainder()[blanks..];

@@ -21,7 +21,7 @@ pub(crate) struct Block {
     pub(crate) label: Option<Span>,
     /// What it says.
     pub(crate) statement: Statement,
-    /// The comment behind `;`, without blanks at its end.
+    /// The comment after `;`, without blanks at its end.
     pub(crate) comment: Option<Span>,
     /// From its first sign to the last one before the comment.
     pub(crate) span: Span,
@@ -40,7 +40,7 @@ pub(crate) struct BlockNumber {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Statement {
     /// Words, assignments, G functions by name and calls, in the order of the text, and jumps
-    /// behind them. Both may be empty.
+    /// after them. Both may be empty.
     Words {
         items: Vec<Item>,
         jumps: Vec<Jump>,
@@ -149,7 +149,7 @@ pub(crate) struct Called {
     pub(crate) span: Span,
 }
 
-/// What stands behind `=`.
+/// What stands after `=`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
     Expr(Expr),
@@ -184,7 +184,7 @@ pub(crate) struct Place {
     pub(crate) address: Address,
     /// The number of `R5`, `X1`, `S2`.
     pub(crate) extension: Option<u32>,
-    /// What stands in brackets.
+    /// Contents of the brackets.
     pub(crate) index: Vec<Option<Expr>>,
     pub(crate) span: Span,
 }
@@ -199,7 +199,7 @@ pub(crate) enum Address {
     System(Span),
 }
 
-/// A jump: its direction, where to, and on what condition.
+/// A jump: its direction, target and condition.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Jump {
     pub(crate) condition: Option<Expr>,
@@ -255,7 +255,7 @@ pub(crate) struct Declared {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Type {
     pub(crate) name: TypeName,
-    /// What stands in brackets behind it: the length of a `STRING`, dimensions in `EXTERN`.
+    /// Contents of the brackets after it: the length of a `STRING`, dimensions in `EXTERN`.
     pub(crate) size: Vec<Option<Expr>>,
 }
 
@@ -325,7 +325,7 @@ pub(crate) enum Unary {
 pub(crate) enum Binary {
     Multiply,
     Divide,
-    /// `DIV`: without the part behind the point.
+    /// `DIV`: without the part after the point.
     IntegerDivide,
     Modulo,
     Add,

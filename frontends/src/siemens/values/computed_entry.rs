@@ -1,9 +1,9 @@
-//! Places of the control's tables whose number is computed: `$P_UIFR[R1,X,TR]` is X of the settable frame whose number
-//! `R1` has (PGA, frames: the index of a settable frame is an expression). They are decisions about that number, and an
+//! Entries of the control's tables whose number is computed: `$P_UIFR[R1,X,TR]` is X of the settable frame whose number
+//! `R1` has (PGA, frames: the index of a settable frame is an expression). They are branches for that number, and an
 //! alarm where no place has it.
 //!
-//! That the number is one of the table's on every way is looked at when the whole text has been read
-//! ([`crate::common::saved`]); any other is refused by name: number 0 is another frame, and above the machine's there is
+//! That the number is one of the table's on every path is looked at when the whole text has been read
+//! ([`crate::common::saved`]); any other is refused: number 0 is another frame, and above the machine's there is
 //! none.
 
 use ncc_ir::canon::Axis;

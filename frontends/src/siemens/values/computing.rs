@@ -6,7 +6,7 @@
 //!
 //! Not here: what is known of texts (`texts`).
 //!
-//! Refused by name: variables that the program does not define, those of definition files, characters, axes and frames
+//! Refused: variables that the program does not define, those of definition files, characters, axes and frames
 //! as variables.
 
 mod definitions;
@@ -257,7 +257,7 @@ impl Lower {
         self.push(span, Op::Assign(kept.target, value), out);
     }
 
-    /// Whether a variable is none of those from which is computed what `MCALL` has put in force; else that is
+    /// Whether a variable is none of those from which is computed what `MCALL` has activated; else that is
     /// reported: whether it counts with the new value is open.
     pub(in crate::siemens) fn is_free_to_change(&mut self, name: &str, span: Span, out: &mut Batch) -> bool {
         let mut found = false;

@@ -3,7 +3,7 @@
 //! A position in the workpiece's coordinates is where the last block ended: what is asked for while axes move is not
 //! known, and a control stops reading ahead for it.
 //!
-//! Refused by name: all that has no row here, and positions where lengths count in inches.
+//! Refused: all that has no row here, and positions where lengths count in inches.
 
 use ncc_dialects::Quantity;
 use ncc_ir::canon::{AXES, Axis, Units};
@@ -75,7 +75,7 @@ impl Lower {
         }
     }
 
-    /// `$TC_DP3[5,1]=120.5`: a value of a tool, by its first edge. It counts from where the edge is called up the next
+    /// `$TC_DP3[5,1]=120.5`: a value of a tool, by its first edge. It counts from where the edge is activated the next
     /// time; what is in use is refused where it is executed.
     fn set_tool(
         &mut self,
@@ -140,7 +140,7 @@ impl Lower {
         let mut words = [const { None }; AXES];
         words[axis as usize] = Some(value);
         let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
-        // The one in force counts as it was until it is called up again; by a computed number, it may be that one.
+        // The one active counts as it was until it is activated again; by a computed number, it may be that one.
         self.stale |=
             self.worth.is_some() || self.state.modes.work_offset.value().is_none_or(|now| now == offset);
         self.stand.forget();

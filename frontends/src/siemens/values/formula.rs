@@ -1,6 +1,6 @@
-//! What an expression means: its operators and functions by the language's rules, with the type of what it is worth.
+//! What an expression means: its operators and functions by the language's rules, with the type of the value of it.
 //!
-//! `/` of whole numbers is a real one, `DIV` cuts off what stands behind the point. Comparisons of real numbers find
+//! `/` of whole numbers is a real one, `DIV` cuts off what stands after the point. Comparisons of real numbers find
 //! two of them equal that differ by 10^-12 of the greater one, `<` and `>` too (Siemens, Job planning 03/2006, 1.7;
 //! machine data 10280 can take that from `<` and `>`). Whole numbers are compared as they are.
 //!
@@ -56,7 +56,7 @@ impl Lower {
         Some(self.formula(tree, src, out)?.expr)
     }
 
-    /// That comparisons are made last is told where somebody may have meant it otherwise.
+    /// That comparisons are made last is reported where somebody may have meant it otherwise.
     fn doubt(&mut self, at: Span, src: Source, out: &mut Batch) {
         if self.assume {
             out.report(Fault::ComparedLast { what: src.text(at) }, at);

@@ -1,10 +1,10 @@
 //! Texts: what text variables hold, texts that are joined and compared.
 //!
 //! A text variable is followed through the program text, and has its text as long as that is known: up to where
-//! control may come from elsewhere, and beyond if it is not changed behind that. A text that is known is a
+//! control may come from elsewhere, and beyond if it is not changed after that. A text that is known is a
 //! constant; none is handed on.
 //!
-//! Refused by name: texts that are not known where they are used, that are longer than their variable, and comparisons
+//! Refused: texts that are not known where they are used, that are longer than their variable, and comparisons
 //! of texts that differ by small and capital letters alone.
 
 use ncc_ir::program::Text;
@@ -127,7 +127,7 @@ impl Lower {
         self.variables.values_mut().for_each(|variable| variable.text.behind = true);
     }
 
-    /// Where a program can come to from elsewhere, no text is known but those that have been what they are since before
+    /// At a jump target, no text is known but those that have been what they are since before
     /// any such place.
     pub(in crate::siemens) fn forget_texts(&mut self) {
         for Variable { text, .. } in self.variables.values_mut() {

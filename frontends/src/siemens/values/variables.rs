@@ -31,7 +31,7 @@ pub(in crate::siemens) type Variables = HashMap<Box<str>, Variable>;
 pub(in crate::siemens) struct TextOf {
     /// It, where it is known.
     pub(in crate::siemens) now: Option<Text>,
-    /// The one that it has had since before any block that control may come to from elsewhere or go past.
+    /// The one that it has had since before any jump target or jump.
     pub(in crate::siemens) first: Option<Text>,
     /// How many characters it can have.
     pub(in crate::siemens) longest: Option<usize>,

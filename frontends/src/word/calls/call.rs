@@ -22,7 +22,7 @@ use crate::word::text::frame::Called;
 const MOST_TIMES: u32 = 9999;
 
 impl Lower {
-    /// A call: the first letter of the row's words names the program, the second says how often.
+    /// A call: the first letter of the row's words names the program, the second the repeat count.
     pub(in crate::word) fn call(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         let mut letters = code.row.words.bytes();
         let program = letters.next().unwrap_or(b' ');
@@ -158,7 +158,7 @@ impl Lower {
         }
     }
 
-    /// Blocks stand behind the return of a text that has no end of its own before: it is a main program.
+    /// Blocks stand after the return of a text that has no end of its own before: it is a main program.
     pub(in crate::word) fn goes_on_behind_return(&mut self, out: &mut Batch) {
         if let Some(at) = self.main_ending.returns.take_if(|_| self.sub.is_none()) {
             self.began_again(at, out);
@@ -170,7 +170,7 @@ impl Lower {
         self.fault(Fault::NotSupported { code, what }, at, out);
     }
 
-    /// What was taken for the return of a subprogram has the main program begin anew.
+    /// What was taken for the return of a subprogram has the main program begin again.
     fn began_again(&mut self, at: Span, out: &mut Batch) {
         if !self.settings.dialect.program.begins_again {
             return self.endless(at, "M99".into(), out);
@@ -180,7 +180,7 @@ impl Lower {
         begin_again_there(&mut out.stmts);
     }
 
-    /// The main program begins anew, for ever: its end, behind which nothing is reset.
+    /// The main program begins again, for ever: its end, after which nothing is reset.
     pub(in crate::word) fn begin_again(&mut self, code: &Code, out: &mut Batch) {
         let name = code.row.code.as_str();
         if self.sub.is_some() {
@@ -205,14 +205,14 @@ impl Lower {
         self.push(code.span, Op::BeginAgain, out);
     }
 
-    /// Whether a return at hand goes back to a caller, as far as the text has been read.
+    /// Whether a return at hand returns to a caller, as far as the text has been read.
     pub(in crate::word) fn may_go_back(&self) -> bool {
         let alone = self.settings.dialect.program.macro_b && self.now.skip.is_none();
         self.sub.is_some() || self.returns_from_blocks() || alone && !self.main_ending.ends
     }
 
-    /// A return to the caller. A text that ends by it and by nothing else is a subprogram that stands alone; run by
-    /// itself, the control would begin anew (16-C, subprogram control: M99 in a main program).
+    /// A return to the caller. A text that ends by it and by nothing else is a standalone subprogram; run by
+    /// itself, the control would begin again (16-C, subprogram control: M99 in a main program).
     pub(in crate::word) fn return_from(&mut self, code: &Code, out: &mut Batch) {
         if self.sub.is_none() && !self.returns_from_blocks() {
             if !self.may_go_back() {

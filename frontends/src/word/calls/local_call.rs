@@ -1,7 +1,7 @@
 //! Calls of blocks of the program itself (96-8000, M97: a subroutine referenced by a line number within the same program,
-//! ended by M99; L how often; `M98 Q` without P of a 30i): they become subprograms, which have their caller's variables.
+//! ended by M99; L the repeat count; `M98 Q` without P of a 30i): they become subprograms, which have their caller's variables.
 //!
-//! They are cut out when the text has been read. Refused by name: blocks that the program also runs into or jumps into,
+//! They are cut out when the text has been read. Refused: blocks that the program also runs into or jumps into,
 //! or out of; such a call in a subprogram, or beside jumps whose number is computed.
 
 use ncc_dialects::{CodeRow, Dialect, Meaning, Quantity};
@@ -98,11 +98,11 @@ impl Lower {
             },
         };
         self.push(span, op, out);
-        // What is called stands in the main program: what that begins with holds there as behind a jump.
+        // What is called stands in the main program: what that begins with holds there as after a jump.
         self.lose(span, out);
     }
 
-    /// Whether a return behind the end of the main program is that of blocks which it calls.
+    /// Whether a return after the end of the main program is that of blocks which it calls.
     pub(in crate::word) fn returns_from_blocks(&self) -> bool {
         self.main_ending.ends && !self.computes.local_calls.is_empty()
     }
@@ -132,7 +132,7 @@ impl Computes {
                 return out.report(refused(code, what), at);
             }
         }
-        // None of a called block's: the main program would begin anew.
+        // None of a called block's: the main program would begin again.
         if let Some(left) = out.stmts.iter().find(|stmt| stmt.op == Op::Return) {
             out.report(refused("M99", CallUnsupported::MainReturn), left.span);
         }
@@ -204,7 +204,7 @@ fn leave_out(body: &mut [Stmt], calls: &[LocalCall]) {
     }
 }
 
-/// Whether nothing comes to what stands behind a statement.
+/// Whether the code after a statement is unreachable.
 fn goes_nowhere_on(stmt: &Stmt) -> bool {
     stmt.skip.is_none() && matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain | Op::Return | Op::Goto(_))
 }

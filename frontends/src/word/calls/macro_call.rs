@@ -71,7 +71,7 @@ impl Lower {
     }
 
     /// What the words of a block hand over, but the code's own, which stands at a place where it stands in the block:
-    /// the program's number, how often, and the arguments.
+    /// the program's number, the repeat count, and the arguments.
     fn handed_over(
         &mut self,
         code: &Code,

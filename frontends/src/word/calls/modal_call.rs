@@ -1,11 +1,11 @@
-//! Lowering of a macro call that comes again behind every block that moves an axis, until it is called off (B-63684EN,
-//! custom macro, modal call): each of them is a call of its own behind the move. Another comes in every block, whose
+//! Lowering of a macro call that comes again after every block that moves an axis, until it is called off (B-63684EN,
+//! custom macro, modal call): each of them is a call of its own after the move. Another comes in every block, whose
 //! words are its arguments: each of those blocks is a call.
 //!
 //! The arguments are worth what they are in the block that says them; so they are numbers, or the program's local
 //! variables, which nothing sets until the calls are over.
 //!
-//! Refused by name: one within another, other calls and cycles while it is in force, and ways from where it is in force
+//! Refused: one within another, other calls and cycles while it is active, and ways from where it is active
 //! to where it is not.
 
 use std::collections::{BTreeSet, HashMap};
@@ -30,7 +30,7 @@ use crate::word::text::block::Block;
 const OWN_BLOCK: &str = "own_block_call";
 
 impl Lower {
-    /// Which calls at moves are in force; 0 is none.
+    /// Which calls at moves are active; 0 is none.
     pub(in crate::word) fn active_calls(&self) -> u32 {
         self.computes.at_moves.as_ref().map_or(0, |calls| calls.which)
     }
@@ -86,7 +86,7 @@ impl Lower {
         self.refuse_modal(&code.row.code, what, code.span, out);
     }
 
-    /// The block behind which every block is a call, and is one itself where the control has it so.
+    /// The block after which every block is a call, and is one itself where the control has it so.
     pub(in crate::word) fn begin_calls_at_blocks(
         &mut self,
         code: &Code,
@@ -147,7 +147,7 @@ impl Lower {
         self.lose(block.span, out);
     }
 
-    /// The calls are over; where none are in force, nothing is.
+    /// The calls are over; where none are active, nothing is.
     pub(in crate::word) fn end_calls_at_moves(&mut self, code: &Code, words: &Words, out: &mut Batch) {
         self.now.silent = true;
         if self.computes.at_moves.is_none() {
@@ -157,13 +157,13 @@ impl Lower {
             return self.refuse_modal(&code.row.code, CallUnsupported::ModalEndSkipped, code.span, out);
         }
         if self.has_axis_word(words) {
-            // Whether the block's own move is one of those behind which it is called, no manual says.
+            // Whether the block's own move is one of those after which it is called, no manual says.
             return self.refuse_modal(&code.row.code, CallUnsupported::ModalEndMoves, code.span, out);
         }
         self.computes.at_moves = None;
     }
 
-    /// Behind a block that moves an axis.
+    /// After a block that moves an axis.
     pub(in crate::word) fn call_at_moves(&mut self, block: &Block, src: Source, out: &mut Batch) {
         let at_moves = self.computes.at_moves.as_ref().is_some_and(|calls| calls.by_words.is_none());
         if !at_moves || self.now.failed || block.statement.is_some() {
@@ -219,7 +219,7 @@ impl Lower {
         self.lose(block.span, out);
     }
 
-    /// Whether a modal call is in force, where none of its own may be made (reported).
+    /// Whether a modal call is active, where none of its own may be made (reported).
     pub(in crate::word) fn within_modal(&mut self, at: Span, out: &mut Batch) -> bool {
         let within = self.computes.at_moves.is_some();
         if within {
@@ -236,7 +236,7 @@ impl Lower {
         }
     }
 
-    /// The end of a program: jumps lead from where the same calls are in force.
+    /// The end of a program: jumps lead from where the same calls are active.
     pub(in crate::word) fn calls_over(&mut self, out: &mut Batch) {
         self.computes.at_moves = None;
         self.computes.reach.unsaid_at_jumps = Jumps::default();
@@ -259,7 +259,7 @@ impl Lower {
 }
 
 impl Computes {
-    /// The text is over: what is called behind moves must have no such calls itself, nor what it calls. How one works
+    /// The text is over: what is called after moves must have no such calls itself, nor what it calls. How one works
     /// within another is not translated.
     pub(in crate::word) fn no_calls_within(&self, out: &mut Batch) {
         for (_, name, at) in &self.reach.called {
@@ -296,7 +296,7 @@ fn is_vacant(value: &Expr) -> bool {
     matches!(value, Expr::Node(node) if **node == Node::Vacant)
 }
 
-/// Whether it is worth the same until a local variable is set.
+/// Whether it has the same value until a local variable is set.
 fn stays(value: &Expr) -> bool {
     let Expr::Node(node) = value else { return true };
     match &**node {

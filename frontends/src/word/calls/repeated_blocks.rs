@@ -1,8 +1,8 @@
 //! Blocks that a block's words execute again, by their numbers.
 //!
 //! Statements say what is known of the modes where they stand. Blocks that are executed again must mean the
-//! same then: their text is read once more with what is in force behind them, and again until nothing new is
-//! in force, and every statement must be the one that it was. Else the repetition is refused by name.
+//! same then: their text is read once more with what is active after them, and again until nothing new is
+//! active, and every statement must be the one that it was. Else the repetition is refused.
 //!
 //! Not here: repetitions within repeated blocks, and of blocks that stand further on; no source says how a
 //! control takes them.
@@ -25,7 +25,7 @@ use crate::word::text::block::Block;
 /// Most passes of a repetition.
 const MOST_TIMES: u32 = 9999;
 
-/// Passes that are looked at before what is in force must be the same.
+/// Passes that are looked at before what is active must be the same.
 const MOST_PASSES: u32 = 4;
 
 /// The label of a numbered block.
@@ -153,7 +153,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Reads blocks again with what is in force, and finds whether they say the same.
+    /// Reads blocks again with what is active, and finds whether they say the same.
     fn same_again(&mut self, said: &[Stmt], span: Span, times: u32, out: &mut Batch) -> bool {
         let text = std::mem::take(&mut self.kept.text);
         let base = self.kept.base;
@@ -213,7 +213,7 @@ fn is_label(stmt: &Stmt) -> bool {
     matches!(stmt.op, Op::Label(_))
 }
 
-/// Whether something was taken for granted that had not been told before.
+/// Whether something was assumed that had not been reported before.
 fn is_assumption(found: &Diagnostic) -> bool {
     matches!(
         found.fault,
@@ -225,7 +225,7 @@ fn is_assumption(found: &Diagnostic) -> bool {
     )
 }
 
-/// Where the block of a number begins. A number that stands twice names none.
+/// Where the block of a number begins. A number that occurs twice names none.
 fn block_of(body: &[Stmt], (number, at): (u32, Span)) -> Result<usize, (Fault, Span)> {
     let mut found = body.iter().enumerate().filter(|(_, stmt)| stmt.number == Some(number)).map(|(at, _)| at);
     match (found.next(), found.next()) {

@@ -1,9 +1,9 @@
 //! Returns to a block of the caller (16-C, subprogram control: with P in the block of M99, the caller goes on at the
-//! block of that number): a jump behind each call. Where the dictionary says so (`returns_within`), such a code is a
-//! jump to that block of its own program instead, the main one too, and goes back nowhere.
+//! block of that number): a jump after each call. Where the dictionary says so (`returns_within`), such a code is a
+//! jump to that block of its own program instead, the main one too, and returns nowhere.
 //!
-//! They are made when the text has been read. Refused by name: a subprogram that goes back in more than one way, one
-//! that is called several times by one word or not in this text, such a return that can be skipped, and one beside calls
+//! They are made when the text has been read. Refused: a subprogram that returns in more than one way, one
+//! that is called several times by one word or not in this text, such a return under block skip, and one beside calls
 //! of a computed number.
 
 use ncc_dialects::{Dialect, Meaning};
@@ -18,7 +18,7 @@ use crate::word::block_words::{Code, Words};
 use crate::word::lower::Lower;
 use crate::word::macros::computes::{Computes, ReturnTo, label};
 
-/// Whether a text has a return that names a block: a code of that meaning, and behind it a letter that its row has.
+/// Whether a text has a return that names a block: a code of that meaning, and after it a letter that its row has.
 pub(in crate::word) fn has_returns_to(text: &[u8], dialect: &Dialect) -> bool {
     let mut rows =
         dialect.code.iter().filter(|row| row.means == Some(Meaning::Return) && !row.blocks.is_empty());
@@ -87,7 +87,7 @@ const COMPUTED: CallUnsupported = CallUnsupported::ReturnComputed;
 const ELSEWHERE: CallUnsupported = CallUnsupported::ReturnElsewhere;
 
 impl Computes {
-    /// The text is over: what calls a subprogram that goes back to a block goes on there.
+    /// The text is over: what calls a subprogram that returns to a block goes on there.
     pub(in crate::word) fn join_returns(&self, out: &mut Batch) {
         let mut to: Vec<(&Text, u32)> = Vec::new();
         for return_to in &self.returns {

@@ -25,7 +25,7 @@ use crate::word::word_state::{ActiveCycle, CycleState};
 const MOST_REPEATS: u32 = 9999;
 
 impl Lower {
-    /// The feed word: of the block, or of the cycle that it calls up or changes.
+    /// The feed word: of the block, or of the cycle that it activates or changes.
     pub(in crate::word) fn feed_word(
         &mut self,
         motion: &[Code],
@@ -82,8 +82,8 @@ impl Lower {
         self.push(word.span, Op::SetFeedRate(Expr::Num(num)), out);
     }
 
-    /// A feed that is computed. That of a cycle's block is one as any other, which is in force from there on: the cycle
-    /// itself would say it anew where its variables may be others.
+    /// A feed that is computed. That of a cycle's block is one as any other, which is active from there on: the cycle
+    /// itself would say it again where its variables may be others.
     fn computed_feed(&mut self, word: &Word, words: &Words, src: Source, out: &mut Batch) {
         if matches!(&self.state.cycle, CycleState::Active(active) if active.feed.is_some()) {
             return self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
@@ -209,7 +209,7 @@ impl Lower {
         }
     }
 
-    /// A block while a cycle is in force, without a code of motion.
+    /// A block while a cycle is active, without a code of motion.
     pub(in crate::word) fn in_cycle(
         &mut self,
         dwell: bool,
@@ -250,7 +250,7 @@ impl Lower {
         }
     }
 
-    /// Words that change the cycle in force.
+    /// Words that change the active cycle.
     #[allow(clippy::too_many_arguments)] // All that a block says of its cycle.
     fn change_cycle(
         &mut self,
@@ -294,7 +294,7 @@ impl Lower {
         self.now.recall = true;
     }
 
-    /// The cycle in force as a statement.
+    /// The active cycle as a statement.
     pub(in crate::word) fn call_up(&mut self, block: Span, out: &mut Batch) {
         let return_level = self.return_level(block, out);
         let anew = self.start_anew(return_level, block, out);
@@ -340,7 +340,7 @@ impl Lower {
             self.fault(Fault::NotSupported { code: src.text(block), what }, block, out);
         }
         let to = self.point(Some(depth_letter as u8), block, words, src, out);
-        // How the tool comes to a hole elsewhere is open in some dictionaries: it is told.
+        // How the tool comes to a hole elsewhere is open in some dictionaries: it is reported.
         self.option(CYCLE_APPROACH, block, out);
         for turn in 0..times {
             if self.now.failed {
@@ -362,7 +362,7 @@ impl Lower {
         }
     }
 
-    /// How often the block's hole is made.
+    /// Repeat count of the block's hole.
     fn repeat(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> u32 {
         let letter = self.settings.repeat_word();
         let Some(word) = letter.and_then(|l| words.take(l as u8)) else {
@@ -472,7 +472,7 @@ impl Lower {
         Some(pecks)
     }
 
-    /// The pecks of a cycle. Which count where both are in force, no source tells.
+    /// The pecks of a cycle. Which count where both are active, no source tells.
     fn pecks(
         &mut self,
         row: &CycleRow,

@@ -1,4 +1,4 @@
-//! The dwells of cycles: those that another cycle has left in force, those that an option decides, and those of rigid
+//! The dwells of cycles: those that another cycle has left active, those that an option decides, and those of rigid
 //! tapping that are left out.
 
 use ncc_dialects::{CycleRow, LEFT_OUT, TAP_DWELL};
@@ -15,7 +15,7 @@ use crate::word::lower::Lower;
 use crate::word::word_state::CycleState;
 
 impl Lower {
-    /// Takes note of a cycle's dwell where it stays in force for others.
+    /// Takes note of a cycle's dwell where it stays active for others.
     pub(super) fn note_dwell(&mut self, row: &CycleRow, dwell: Option<Num>, out: &mut Batch) {
         let (Some(dwell), true) = (dwell, self.settings.dialect.cycles.dwell_left) else { return };
         self.state.dwell_left = Know::Said(dwell);
@@ -42,7 +42,7 @@ impl Lower {
         }
     }
 
-    /// Control goes elsewhere: a cycle that is called up there keeps the dwell of the one in force.
+    /// Control goes elsewhere: a cycle that is activated there keeps the dwell of the active one.
     pub(in crate::word) fn carry_dwell(&mut self, out: &mut Batch) {
         let with_dwell = matches!(&self.state.cycle, CycleState::Active(active) if active.dwell.is_some());
         if !(with_dwell && self.settings.dialect.cycles.retained_by_all()) {
@@ -54,7 +54,7 @@ impl Lower {
         }
     }
 
-    /// A cycle without a dwell of its own, called up where another may be in force whose dwell it would keep.
+    /// A cycle without a dwell of its own, activated where another may be active whose dwell it would keep.
     pub(super) fn no_dwell_before(&mut self, row: &'static CycleRow, code: &Code, out: &mut Batch) {
         let takes = row.dwell.is_some() || row.dwell_by.is_some();
         if self.state.cycle != CycleState::Lost || !takes || !self.settings.dialect.cycles.retained_by_all() {

@@ -87,7 +87,7 @@ pub(super) fn kind_of(
 }
 
 impl Lower {
-    /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
+    /// The dwell of a cycle, of the one that is active: where the sources do not agree whether it has one,
     /// an option is asked. A cycle that refuses one says nothing of what an earlier cycle has left.
     pub(super) fn dwells(
         &mut self,

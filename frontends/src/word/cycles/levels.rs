@@ -1,4 +1,4 @@
-//! The level of return on a control that has it anew with each block.
+//! The return level on a control that has it again with each block.
 //!
 //! ```text
 //! G0 Z10 / G99 G81 X1 Z-5 R2 / G98 X2      the second hole ends at Z2, where the tool stood before its block
@@ -17,7 +17,7 @@ use crate::word::lower::Lower;
 use crate::word::word_state::CycleState;
 
 impl Lower {
-    /// Ends the cycle in force before it is called up again, on a control whose initial level is where the tool stands
+    /// Ends the active cycle before it is activated again, on a control whose initial level is where the tool is
     /// before each block, where that level counts and may be another than before the series.
     pub(super) fn start_anew(&mut self, level: Fact<ReturnLevel>, block: Span, out: &mut Batch) -> bool {
         if !self.settings.dialect.cycles.level_of_block {
@@ -37,8 +37,8 @@ impl Lower {
         anew
     }
 
-    /// After a block, on a control where every move that is no cycle's makes the initial level the level of return, and
-    /// every block while no motion is in force.
+    /// After a block, on a control where every move that is no cycle's makes the initial level the return level, and
+    /// every block while no motion is active.
     pub(in crate::word) fn lose_level(&mut self, moves: bool) {
         let lost = self.settings.dialect.cycles.level_lost && (moves || self.state.no_motion);
         if lost && !matches!(self.state.cycle, CycleState::Active(_)) {

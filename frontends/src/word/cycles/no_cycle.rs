@@ -16,7 +16,7 @@ use crate::word::lower::Lower;
 use crate::word::word_state::CycleState;
 
 impl Lower {
-    /// Refuses a code where a cycle is active. Behind a call, a jump or a label the end of the text decides.
+    /// Refuses a code where a cycle is active. After a call, a jump or a label the end of the text decides.
     pub(in crate::word) fn without_cycle(&mut self, fault: Fault, span: Span, out: &mut Batch) {
         match self.state.cycle {
             CycleState::None => {}

@@ -87,7 +87,7 @@ impl Lower {
         } else {
             None
         };
-        // The first hole is not where the tool stands: the way to it is open in some dictionaries.
+        // The first hole is not where the tool is: the way to it is open in some dictionaries.
         self.option(CYCLE_APPROACH, code.span, out);
         let count = count?;
         if count > 1 && self.option("g24_direction", code.span, out) == "cw" {

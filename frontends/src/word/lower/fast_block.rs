@@ -89,7 +89,7 @@ impl Lower {
         Some(end)
     }
 
-    /// What the block at hand says, if it is a hole of the cycle in force.
+    /// What the block at hand says, if it is a hole of the active cycle.
     fn known_hole(&self, plane: Plane, src: Source) -> Option<Known> {
         let (modes, usual) = (&self.state.modes, &self.usual);
         let line = &usual.line;
@@ -155,12 +155,12 @@ impl Lower {
         };
         let comment = self.comment_of(src)?;
         let known = Known { path, unit, distance, feed, span: line.whole, skip, comment };
-        // The level of return is another one behind the block.
+        // The return level is another one after the block.
         let keeps_level = !self.settings.dialect.cycles.level_lost;
         keeps_level.then_some((said, known))
     }
 
-    /// The arc of the block at hand, with its words in the plane that is in force.
+    /// The arc of the block at hand, with its words in the plane that is active.
     fn arc_path(&self, turn: Turn) -> Option<Path> {
         let (line, rules) = (&self.usual.line, &self.settings.dialect.arc);
         let plane = self.state.modes.plane.value().filter(|plane| line.is_arc(*plane))?;
@@ -175,7 +175,7 @@ impl Lower {
         complete.then_some(Path::Arc { plane, turn, from })
     }
 
-    /// The level of the block at hand that can be skipped.
+    /// The level of the block at hand under block skip.
     fn skip_level(&self, written: u8) -> Option<u8> {
         let level = written.max(1);
         let unsure = self.settings.dialect.block.skip_unsure && !self.reported.skip;

@@ -1,10 +1,10 @@
 //! G codes of which the number is computed (16-C, custom macro: a variable stands for the value of any address but `O`
-//! and `N`; its bolt circle saves `#3=#4003` and puts that back by `G#3 G80`): a decision about each code of a group, and
-//! an alarm where none has the number. The group is that of which a variable was given the code in force, or that of
+//! and `N`; its bolt circle saves `#3=#4003` and puts that back by `G#3 G80`): a branch for each code of a group, and
+//! an alarm where none has the number. The group is that of which a variable was given the active code, or that of
 //! the number that comes of the constants that its variables were given last.
 //!
-//! That the number is one of the group's on every way to the code is looked at when the whole text has been read (`structure_paths`);
-//! any other is refused by name, since any code might come of it.
+//! That the number is one of the group's on every path to the code is looked at when the whole text has been read (`structure_paths`);
+//! any other is refused, since any code might come of it.
 
 use std::mem::discriminant;
 
@@ -186,7 +186,7 @@ impl Lower {
         numbers.filter_map(|number| self.setting_of(number)).collect()
     }
 
-    /// A code that puts a mode in force or begins a motion, by its number; what it does, and its group.
+    /// A code that activates a mode or begins a motion, by its number; what it does, and its group.
     fn setting_of(&self, number: i64) -> Option<(i64, Op, &'static str)> {
         let nowhere = || Move { to: Point::default(), said: true };
         let row = self.settings.dialect.code_row(b'G', u32::try_from(number.checked_mul(10)?).ok()?)?;
@@ -199,7 +199,7 @@ impl Lower {
         Some((number, op, &*row.group))
     }
 
-    /// What such a code says is not known any more; `false` where a cycle in force goes by it.
+    /// What such a code says is not known any more; `false` where an active cycle goes by it.
     fn forget_group(&mut self, codes: &[(i64, Op, &str)]) -> bool {
         let Some((_, op, _)) = codes.first() else { return false };
         let active = matches!(self.state.cycle, CycleState::Active(_));

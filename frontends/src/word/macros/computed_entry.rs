@@ -1,9 +1,9 @@
-//! Places of the control's tables whose number is computed: `#[5201+#1*20]` is X of the fixture whose number `#1` has
+//! Entries of the control's tables whose number is computed: `#[5201+#1*20]` is X of the fixture whose number `#1` has
 //! (16-C, custom macro: the number of a variable may be an expression; system variables, work offsets, 20 apart). They are
-//! decisions about the one variable in the number, and an alarm where no place has it.
+//! branches for the one variable in the number, and an alarm where no place has it.
 //!
 //! A variable of the program's own that is meant by such a number stays one. That the number is one of the table's on
-//! every way is looked at when the whole text has been read ([`crate::common::saved::paths`]); any other is refused by name, since the
+//! every path is looked at when the whole text has been read ([`crate::common::saved::paths`]); any other is refused, since the
 //! control would take another of its variables.
 
 use ncc_dialects::SystemRow;
@@ -40,7 +40,7 @@ impl Number {
         u32::try_from(number).ok()
     }
 
-    /// What the variable is worth where the number is this one, if that is whole.
+    /// Value of the variable where the number is this one, if that is whole.
     fn worth(&self, number: u32) -> Option<i64> {
         let rest = i64::from(number).checked_sub(self.more)?;
         rest.checked_div(self.times).filter(|worth| worth.checked_mul(self.times) == Some(rest))
@@ -274,7 +274,7 @@ impl Lower {
         place_of(row, at)
     }
 
-    /// What the variable is worth for each place of the table that a number is likely to be of: the one nearest to what
+    /// Value of the variable for each place of the table that a number is likely to be of: the one nearest to what
     /// the variable was given last.
     fn worths(&self, numbers: &[Number]) -> Vec<i64> {
         let Some(number) = numbers.first() else { return Vec::new() };
@@ -289,7 +289,7 @@ impl Lower {
         };
         let mut worths: Vec<i64> =
             all.iter().filter(|(_, own)| is_alike(own, one)).map(|(worth, _)| *worth).collect();
-        // One that is no place of a table has no decision: it must not come to that.
+        // One that is no place of a table has no branch: it must not reach that.
         worths.retain(|worth| {
             numbers
                 .iter()

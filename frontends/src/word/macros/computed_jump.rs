@@ -1,5 +1,5 @@
 //! Jumps to the block whose number is computed (B-63684EN, custom macro, unconditional branch: "a sequence number can
-//! also be specified using an expression", `GOTO #10`): a decision about each block of the program that a jump can go
+//! also be specified using an expression", `GOTO #10`): a branch for each block of the program that a jump can go
 //! to, and an alarm where none has the number (alarm 128).
 //!
 //! They are made when the text is read, since blocks further down are among them. What the number is rounded to, no
@@ -24,7 +24,7 @@ impl Computes {
         mark(self.computed_jumps.len() - 1)
     }
 
-    /// The text is over: such jumps become decisions about the blocks of their program.
+    /// The text is over: such jumps become branches for the blocks of their program.
     pub(in crate::word) fn join_jumps(&self, out: &mut Batch) {
         if self.computed_jumps.is_empty() {
             return;
@@ -68,7 +68,7 @@ impl Computes {
 }
 
 impl ComputedJump {
-    /// The decisions, in the block of the jump.
+    /// The branches, in the block of the jump.
     fn decisions(&self, numbers: &[u32], jump: &Stmt) -> Vec<Stmt> {
         let both = |a: Option<Expr>, b: Option<Expr>| match (a, b) {
             (Some(a), Some(b)) => Some(Expr::Node(Box::new(Node::Binary(Binary::And, a, b)))),

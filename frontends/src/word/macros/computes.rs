@@ -36,9 +36,9 @@ pub(in crate::word) struct Computes {
     pub(in crate::word) returns: Vec<ReturnTo>,
     /// Whether programs are called whose number is computed.
     pub(in crate::word) calls_of: bool,
-    /// The macro that is called behind each block that moves.
+    /// The macro that is called after each block that moves.
     pub(in crate::word) at_moves: Option<AtMoves>,
-    /// Modes that are saved and put back.
+    /// Modes that are saved and restored.
     pub(in crate::word) saved: Saved,
     pub(in crate::word) reach: Reach,
 }
@@ -83,7 +83,7 @@ pub(in crate::word) struct ReturnTo {
     pub(in crate::word) at: Span,
 }
 
-/// Calls that are in force.
+/// Calls that are active.
 #[derive(Clone, Debug)]
 pub(in crate::word) struct AtMoves {
     pub(in crate::word) call: Call,
@@ -95,7 +95,7 @@ pub(in crate::word) struct AtMoves {
     pub(in crate::word) by_words: Option<Code>,
 }
 
-/// Which calls are in force where a program can be come to, and where it goes away from; 0 is none.
+/// Which calls are active at each jump target, and where it goes away from; 0 is none.
 #[derive(Debug, Default)]
 pub(in crate::word) struct Reach {
     /// How many of them the text has had.
@@ -108,7 +108,7 @@ pub(in crate::word) struct Reach {
     pub(in crate::word) jumps: Vec<(Option<u32>, u32, Span)>,
     /// What the program has not said where it jumps.
     pub(in crate::word) unsaid_at_jumps: Jumps,
-    /// Programs that are called behind moves, and those that have such calls; the main one has no name.
+    /// Programs that are called after moves, and those that have such calls; the main one has no name.
     pub(in crate::word) called: Vec<(Text, Text, Span)>,
 }
 

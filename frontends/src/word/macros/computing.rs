@@ -1,9 +1,9 @@
 //! Lowering of what is computed: words with expressions, assignments, jumps, loops and macro calls.
 //!
-//! Where a program can come to from elsewhere (a block that jumps name, the head of a loop, behind its end) every
-//! fact is lost, as behind a call. A word whose variable was never set is left out when the program runs.
+//! At a jump target (a block that jumps name, the head of a loop, after its end) every fact is lost, as after a call.
+//! A word with an empty variable is left out at run time.
 //!
-//! Not here: which expressions there are (`formula`), and what they are worth.
+//! Not here: which expressions there are (`formula`), and their values.
 
 mod values;
 
@@ -296,7 +296,7 @@ impl Lower {
         }
     }
 
-    /// The same without places of tables by computed numbers.
+    /// The same without table entries by computed numbers.
     pub(in crate::word) fn plain_assignment(
         &mut self,
         to: &Target,
@@ -308,7 +308,7 @@ impl Lower {
         let span = block.span;
         self.saves(to, value);
         if value.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
-            // What is in force is asked.
+            // What is active is asked.
             self.leave_motion(None, out);
         }
         let value = self.value(value, span, out);
@@ -343,7 +343,7 @@ impl Lower {
     }
 
     /// A variable gets another value, any where it is not said which: what has been computed from it and is not said
-    /// yet must not be said with it.
+    /// yet must not be stated with it.
     pub(in crate::word) fn assigned(&mut self, to: Option<&Target>, span: Span, out: &mut Batch) {
         self.argument_changes(span, out);
         let reads = |value: &Expr| match to {

@@ -1,4 +1,4 @@
-//! Variables of the control's own: what they are worth, and those that a program sets: zeros of work
+//! Variables of the control's own: their values, and those that a program sets: zeros of work
 //! offsets and lengths of tools, which is the data input of them, and those by which it gives an alarm, or stops with a message. The
 //! comment of the block is the text (16-C, custom macro, system variables, alarms: `#3000 = n (MESSAGE)`; B-63684EN,
 //! stop with a message: `#3006 = 1 (MESSAGE)`).
@@ -23,7 +23,7 @@ use crate::word::text::block::Block;
 use crate::word::word_state::CycleState;
 
 impl Lower {
-    /// What setting a variable of the control's own does; nothing is refused by name.
+    /// What setting a variable of the control's own does; nothing is refused.
     pub(in crate::word) fn control_set(
         &mut self,
         to: &System,
@@ -87,7 +87,7 @@ impl Lower {
         Some((row, number - row.number))
     }
 
-    /// What a variable of the control's own is worth, by its name; what is not known is refused by name.
+    /// Value of a variable of the control's own, by its name; what is not known is refused.
     pub(in crate::word) fn control_value(&mut self, name: &str, at: Span, out: &mut Batch) -> Option<Expr> {
         let found = self.row_of(name);
         if let Some((row, place)) = found
@@ -110,7 +110,7 @@ impl Lower {
         self.refuse(Fault::NotSupported { code: name.into(), what }, at, out)
     }
 
-    /// What is taken for granted where a variable of the control's own is used.
+    /// What is assumed where a variable of the control's own is used.
     fn rely_on_row(&mut self, row: &'static SystemRow, at: Span, out: &mut Batch) {
         if !row.option.is_empty() {
             self.option(&row.option, at, out);
@@ -131,7 +131,7 @@ impl Lower {
         vec![Op::SetData(Box::new(data))]
     }
 
-    /// No data goes in while a cycle is in force.
+    /// No data goes in while a cycle is active.
     fn check_no_cycle(&mut self, at: Span, out: &mut Batch) {
         if let CycleState::Active(_) = self.state.cycle {
             let what = TableUnsupported::InCycle.into();

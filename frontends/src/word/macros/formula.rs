@@ -1,8 +1,8 @@
 //! Expressions and statements of the macro language, as the grammar makes them.
 //!
 //! `AND`, `OR` and `XOR` join two conditions, or two whole numbers bit by bit (B-63684EN, custom macro, arithmetic and
-//! logic operation: "logical operation performed on binary numbers bit by bit"); of one of each they are refused by
-//! name. A condition is no number, and a number is no condition (16-C, custom macro: a condition stands in the
+//! logic operation: "logical operation performed on binary numbers bit by bit"); of one of each they are refused.
+//! A condition is no number, and a number is no condition (16-C, custom macro: a condition stands in the
 //! brackets of `IF` and `WHILE`; other controls store it, and none says as what).
 //!
 //! Not here: what rounding and angles mean where an expression stands, and which variables have numbers that are
@@ -220,7 +220,7 @@ pub(crate) fn statement(pieces: Vec<Piece>) -> Option<Statement> {
     })
 }
 
-/// What stands behind `#`, or behind the letter of programs.
+/// What stands after `#`, or after the letter of programs.
 #[derive(Clone, Debug)]
 pub(crate) enum Index {
     Number(Digits),

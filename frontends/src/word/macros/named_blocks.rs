@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use ncc_dialects::Dialect;
 
-/// Whether a text has a word that jumps, or the two letters of it that are enough behind a condition.
+/// Whether a text has a word that jumps, or the two letters of it that are enough after a condition.
 pub(super) fn has_jumps(text: &[u8]) -> bool {
     memchr::memchr2_iter(b'O', b'o', text).any(|at| {
         let Some(before) = text[..at].strip_suffix(b"G").or_else(|| text[..at].strip_suffix(b"g")) else {
@@ -16,7 +16,7 @@ pub(super) fn has_jumps(text: &[u8]) -> bool {
     })
 }
 
-/// Adds the numbers of blocks that a text may name to those known: what stands behind a jump, and in words that name blocks
+/// Adds the numbers of blocks that a text may name to those known: what stands after a jump, and in words that name blocks
 /// beside some code. `None` if one is computed.
 pub(super) fn named_blocks(text: &[u8], dialect: &Dialect, mut all: BTreeSet<u32>) -> Option<BTreeSet<u32>> {
     let letters: BTreeSet<u8> = dialect.code.iter().flat_map(|row| row.blocks.bytes()).collect();
@@ -79,7 +79,7 @@ mod tests {
     }
 
     proptest! {
-        /// As it is said: each place of the text is looked at for each of the words.
+        /// As it is stated: each place of the text is looked at for each of the words.
         #[test]
         fn it_is_found_wherever_it_stands(text in "[GOTOgoto \\]1]{0,12}") {
             let has = |word: &str| text.to_ascii_uppercase().contains(word);

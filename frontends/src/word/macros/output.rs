@@ -1,9 +1,9 @@
 //! Text for the device that the control has for it: `POPEN`, `DPRNT[X#1[53]*Y#2[53]]`, `PCLOS` (96-8000 Rev AC,
 //! macros, formatted output; NCT 2000M, page 193; 8520-GUM, chapter 20: a letter of A to Z, a digit or one of `+ - / *`
-//! stands for itself, but `*` for a blank; behind a variable, in brackets, how many places its value has before the
-//! point and behind it, which is rounded).
+//! stands for itself, but `*` for a blank; after a variable, in brackets, how many places its value has before the
+//! point and after it, which is rounded).
 //!
-//! Not here: `BPRNT`, which writes values as bits (refused by name).
+//! Not here: `BPRNT`, which writes values as bits (refused).
 
 use ncc_dialects::Statement as Says;
 use ncc_ir::diag::Fault;
@@ -49,7 +49,7 @@ impl Lower {
             let fault = Fault::NotSupported { code: src.text(span), what: what.into() };
             return self.fault(fault, span, out);
         }
-        // What is in force may be asked.
+        // What is active may be asked.
         self.leave_motion(None, out);
         self.push(span, Op::Output(Box::new(output)), out);
     }

@@ -1,9 +1,9 @@
 //! Lowering of cutter radius compensation: side, and the entry of the table that has the radius.
 //!
-//! Where a dialect has a word for the entry, it stands in the block or stays in force from an earlier one, also where
+//! Where a dialect supports the entry, it stands in the block or stays active from an earlier one, also where
 //! its number is computed, until a variable that it is computed from is set; where the code's row says so, it is the
 //! tool's own without that word, which then never stays. A dialect without such a word takes the radius that belongs to
-//! the length in force. Codes of their own have the tool's diameter in that word. Not here: what controls refuse under
+//! the active length. Codes of their own have the tool's diameter in that word. Not here: what controls refuse under
 //! compensation; that is execution's.
 
 use ncc_dialects::{BesideCompensation, Meaning, NO_RADIUS, Quantity, RADIUS_UNSAID};
@@ -186,7 +186,7 @@ impl Lower {
     }
 }
 
-/// The entry as it stays in force: one that is computed from what the control tells may be another one later.
+/// The entry as it stays active: one that is computed from what the control tells may be another one later.
 fn kept(entry: &Expr) -> Know<Expr> {
     let asks = |node: &Node| matches!(node, Node::Var(Var::System(_)));
     if entry.has(&asks) { Know::Lost } else { Know::Said(entry.clone()) }

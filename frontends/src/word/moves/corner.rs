@@ -1,4 +1,4 @@
-//! Lowering of words that round or chamfer the corner behind a block's move.
+//! Lowering of words that round or chamfer the corner after a block's move.
 //!
 //! Not here: whether there is such a corner, which execution finds out.
 
@@ -17,7 +17,7 @@ use crate::word::lower::Lower;
 use crate::word::word_state::AxisWords;
 
 impl Lower {
-    /// A word behind a comma.
+    /// A word after a comma.
     pub(in crate::word) fn comma_word(&mut self, word: &Word, src: Source, out: &mut Batch) {
         let letter = char::from(word.letter.to_ascii_uppercase());
         let known = self.settings.dialect.corner.words().any(|(_, own)| own.comma && own.letter == letter);

@@ -1,7 +1,7 @@
-//! Lowering of rapid moves that go another way than straight: from one side, or by the intermediate point.
+//! Lowering of rapid moves that are not straight: from one side, or by the intermediate point.
 //!
-//! Refused by name: incremental words of a return by the intermediate point, which count from there on some controls
-//! and are told of none here; both while a cycle or a thread is in force, and under cutter radius compensation.
+//! Refused: incremental words of a return by the intermediate point, which count from there on some controls
+//! and no diagnostic is reported here; both while a cycle or a thread is active, and under cutter radius compensation.
 
 use ncc_dialects::Meaning;
 use ncc_ir::canon::Distance;
@@ -50,7 +50,7 @@ impl Lower {
         }
         self.push(code.span, Op::Detour(detour), out);
         self.push(block, Op::StraightTraverse(Move { to, said: true }), out);
-        // From one side it may stay in force. As the caller moves, no statement behind this one can say.
+        // From one side it may stay active. As the caller moves, no statement after this one can say.
         if detour == Detour::OneSide || self.state.modes.motion.value().is_none() {
             (self.state.modes.motion, self.state.no_motion) = (Know::Unsaid, true);
         }

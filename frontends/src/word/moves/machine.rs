@@ -1,6 +1,6 @@
-//! Lowering of moves in machine coordinates and to points of the machine.
+//! Lowering of moves in machine coordinates and to reference points.
 //!
-//! Refused by name: both while a cycle is in force, arcs and increments in machine coordinates, and
+//! Refused: both while a cycle is active, arcs and increments in machine coordinates, and
 //! points that the machine may have elsewhere than its option says.
 
 use ncc_dialects::{AT_ZERO, FURTHER_POINT, MACHINE_WITHOUT_AXIS, Meaning, NOTHING, STORED_POSITION};
@@ -92,7 +92,7 @@ impl Lower {
         if to.axes.iter().flatten().any(|word| word.distance == Fact::Known(Distance::Incremental)) {
             return refuse(MoveUnsupported::MachineIncrement);
         }
-        // Where such a move is always a rapid, none need have been said before.
+        // Where such a move is always a rapid, none need have been stated before.
         let motion = match rapid && !said {
             true => None,
             false => match self.motion(block, out) {
@@ -164,7 +164,7 @@ impl Lower {
             let what = MoveUnsupported::ReferenceElsewhere.into();
             return self.fault(Fault::NotSupported { code: code_text(), what }, code.span, out);
         }
-        // A point whose place is stated is that place, which every control has words for.
+        // A point whose place is stated is that place, which every control supports.
         let stated = match point {
             ReferencePoint::Stored(_) => self.settings.get(STORED_POSITION),
             ReferencePoint::Further(_) => self.settings.get(FURTHER_POINT),

@@ -53,7 +53,7 @@ impl Lower {
         }
         let motion = codes.iter().find_map(|c| Some((c, motion_of(c.meaning)?)));
         if let Some((code, motion)) = motion {
-            // With a cycle's code after it, it only says what is in force when the cycle is over.
+            // With a cycle's code after it, it only says what is active when the cycle is over.
             let excluded = pattern.or_else(|| cycle.filter(|c| c.at < code.at));
             if let Some(other) = excluded {
                 let fault = Fault::CodesExclude { first: src.text(other.span), second: src.text(code.span) };
@@ -182,11 +182,11 @@ impl Lower {
         }
     }
 
-    /// Axis words that do whatever is in force when the program runs.
+    /// Axis words that do whatever is active when the program runs.
     fn position(&mut self, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
         if self.has_axis_word(words) {
             if self.state.level_changed {
-                // A cycle that its caller has called up has the level that was in force there.
+                // A cycle that its caller has activated has the level that was active there.
                 let what = MoveUnsupported::HoleAfterLevel.into();
                 self.fault(Fault::NotSupported { code: src.text(block), what }, block, out);
             }
@@ -201,7 +201,7 @@ impl Lower {
         words.has_any(self.roles.axes) || self.now.polar != [None; 2]
     }
 
-    /// Whether the block of a dwell can have a straight move, and one is in force.
+    /// Whether the block of a dwell can have a straight move, and one is active.
     fn moves_behind_dwell(&self) -> bool {
         let straight = matches!(self.state.modes.motion.value(), Some(Motion::Traverse | Motion::Feed));
         self.settings.dialect.block.dwell_before_move && straight && self.state.cycle == CycleState::None
@@ -252,7 +252,7 @@ impl Lower {
                     && may_be_left_out(&words.exprs[usize::from(place)])
                 {
                     // Whether the word is there at all must be known. A parameter without a value
-                    // is an error where words cannot go; what is worked out has one.
+                    // is an error where words cannot go; what is computed has one.
                     self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
                     continue;
                 }

@@ -1,6 +1,6 @@
 //! A code of motion in a block without a move (`G1 F200`): nothing says it but the next move. Where no fact is
-//! known after it (behind a call, at a block that can be jumped to, at a loop), axis words alone do what is in
-//! force when the program runs: before such a place a move to nowhere says it. An arc to nowhere has no centre;
+//! known after it (after a call, at a block that can be jumped to, at a loop), axis words alone do what is active
+//! when the program runs: before such a place a move to nowhere says it. An arc to nowhere has no centre;
 //! axis words after its code are refused.
 
 use ncc_dialects::Meaning;
@@ -18,7 +18,7 @@ use crate::word::word_state::{CycleState, WordState};
 impl Lower {
     /// A code of motion; `before` is what was known until then.
     pub(in crate::word) fn said_motion(&mut self, motion: Motion, before: Know<Motion>, span: Span) {
-        // What is in force already is said.
+        // What is active already is stated.
         if self.motion_without_move.code.is_some() || before.value() != Some(motion) {
             self.motion_without_move.code = Some((span, motion));
         }
@@ -87,13 +87,13 @@ impl Lower {
         self.motion_without_move.code.is_some()
     }
 
-    /// Axis words that do what is in force when the program runs.
+    /// Axis words that do what is active when the program runs.
     pub(in crate::word) fn bare_words(&mut self, block: Span, out: &mut Batch) {
         self.motion_without_move.bare.get_or_insert(block);
         self.tell_motion(out);
     }
 
-    /// Whether one that stands here adds nothing to what is told of them.
+    /// Whether one that stands here adds nothing to what is reported of them.
     pub(in crate::word) fn position_is_told(&self) -> bool {
         let motion = &self.motion_without_move;
         motion.bare.is_some() && (motion.lost.is_none() || motion.reported)

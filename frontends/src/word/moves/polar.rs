@@ -1,9 +1,9 @@
 //! Lowering of points by radius and angle, in a mode of their own: while it is on, the words of the
 //! plane's axes are radius and angle about program zero.
 //!
-//! A radius that is an increment is about where the tool stands; from where its angle is counted no
+//! A radius that is an increment is about where the tool is; from where its angle is counted no
 //! source says, and it is refused. So is a word that is missing or an increment where something other
-//! than a polar point has moved the plane's axes last: it would count from where the tool stands.
+//! than a polar point has moved the plane's axes last: it would count from where the tool is.
 
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane};
@@ -212,8 +212,8 @@ impl Lower {
         }
     }
 
-    /// Adds a move whose end is said by signs for radius and angle about program zero. A word that is missing
-    /// or an increment counts from where the tool stands: where that is a polar point, from its words.
+    /// Adds a move whose end is stated by signs for radius and angle about program zero. A word that is missing
+    /// or an increment counts from where the tool is: where that is a polar point, from its words.
     #[cold]
     fn push_signed(&mut self, span: Span, mut op: Op, src: Source, out: &mut Batch) {
         let [radius, angle] = std::mem::take(&mut self.now.polar);

@@ -1,9 +1,9 @@
-//! Lowering of probing moves: straight at feed, until the probe says so.
+//! Lowering of probing moves: straight at feed, until the probe triggers.
 //!
 //! What the control measures there, programs read from variables (`[[system]]` of the dictionary).
 //!
-//! Refused by name: under a cycle or cutter radius compensation, and bare axis words behind a code that stays in
-//! force, which would probe again.
+//! Refused: under a cycle or cutter radius compensation, and bare axis words after a code that stays active,
+//! which would probe again.
 
 use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
@@ -57,7 +57,7 @@ impl Lower {
             .code
             .iter()
             .any(|row| row.means == Some(Meaning::StraightFeed) && row.group == code.row.group);
-        // Bare axis words would probe again, or go on as the caller moves, which no statement behind this
+        // Bare axis words would probe again, or go on as the caller moves, which no statement after this
         // one can say.
         if stays || self.state.modes.motion.value().is_none() {
             (self.state.modes.motion, self.state.no_motion) = (Know::Unsaid, true);

@@ -1,7 +1,7 @@
-//! Lowering of moves in step with the spindle: threads, and a tap that goes in and out in one block.
+//! Lowering of spindle-synchronised moves: threads, and a tap that goes in and out in one block.
 //!
 //! Refused: threads along several axes or round one, whose leads mean another thing on each control, and
-//! leads without a decimal point where that counts increments. What feed is in force behind a lead that the
+//! leads without a decimal point where that counts increments. What feed is active after a lead that the
 //! feed word has said is not relied on.
 
 use ncc_dialects::{Bare, CodeRow, Meaning, Quantity, Thread};
@@ -54,7 +54,7 @@ impl Lower {
         }
     }
 
-    /// A move in step with the spindle.
+    /// A spindle-synchronised move.
     pub(in crate::word) fn thread(
         &mut self,
         row: &'static CodeRow,

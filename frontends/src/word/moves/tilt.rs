@@ -1,9 +1,9 @@
-//! Lowering of control of the tool's tip, and of tilted planes.
+//! Lowering of tool centre point control, and of tilted planes.
 //!
 //! Control of the tip is switched on by the code that takes the length up with it, and ended by the codes of
 //! lengths; a tilted plane is ended by the code that ends a rotation of the same group. Where it is not known
 //! whether either is on, such an end counts as one only if the text has switched it on before; switching it
-//! on later is then refused by name. So are planes without all of their words.
+//! on later is then refused. So are planes without all of their words.
 
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::diag::Fault;
@@ -22,7 +22,7 @@ impl Lower {
         self.settings.dialect.code_for(meaning).is_some()
     }
 
-    /// Takes up a length with control of the tip.
+    /// Applies a length with control of the tip.
     pub(in crate::word) fn use_tip(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         let Some(word) = words.take(self.roles.length_entry) else {
             let word = char::from(self.roles.length_entry).to_string().into();

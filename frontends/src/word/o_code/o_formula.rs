@@ -22,7 +22,7 @@ pub(super) fn node(node: Node) -> Expr {
 }
 
 impl Formula {
-    /// A function of values; `None` is one that is refused by name, or nested too deep.
+    /// A function of values; `None` is one that is refused, or nested too deep.
     pub(crate) fn call_function(function: Option<Function>, arguments: Vec<Formula>) -> Option<Formula> {
         Formula::call(function, arguments)
     }
@@ -88,7 +88,7 @@ impl Formula {
     }
 }
 
-/// What an expression without parameters is worth.
+/// Value of an expression without parameters.
 pub(in crate::word) fn constant(expr: &Expr) -> Option<f64> {
     let node = match expr {
         Expr::Num(n) => return Some(n.mantissa as f64 / 10f64.powi(i32::from(n.scale))),

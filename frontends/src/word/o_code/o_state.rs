@@ -19,7 +19,7 @@ pub(in crate::word) struct OWordState {
     /// Labels met in the program at hand.
     pub(in crate::word) labels: Vec<Text>,
     pub(in crate::word) given: Given,
-    /// Whether it was told that there are no axes U, V and W.
+    /// Whether the missing axes U, V and W were reported.
     pub(in crate::word) no_such_axes: bool,
     /// Whether the program at hand ends with M99.
     pub(in crate::word) numbered_program: bool,
@@ -28,7 +28,7 @@ pub(in crate::word) struct OWordState {
     /// Where a loop of `while` is left by a break, and where one of `do` begins.
     pub(in crate::word) left: Option<Span>,
     pub(in crate::word) does: Option<Span>,
-    /// Where a turn of a `do` is left, and where a `repeat` begins.
+    /// Where an iteration of a `do` is left, and where a `repeat` begins.
     pub(in crate::word) turned: Option<Span>,
     pub(in crate::word) repeats: Option<Span>,
     /// Structures stand in one another deeper than they are read: none is looked at any more.
@@ -90,7 +90,7 @@ pub(in crate::word) struct StructurePaths {
 
 impl StructurePaths {
     /// The end of the structure: all its bodies may have been passed over, unless one is `else`, or the condition is
-    /// asked for behind the body.
+    /// asked for after the body.
     pub(in crate::word) fn passed_over(&mut self, kind: &StructureKind) {
         if let StructureKind::While(_) | StructureKind::Repeat(_) | StructureKind::If { now: Some(_), .. } =
             kind

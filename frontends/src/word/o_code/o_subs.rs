@@ -1,7 +1,7 @@
 //! Subprograms of O words: `sub` to `endsub`, `call`, `return`, and how they go with numbered programs that end with
 //! M99 (LinuxCNC 2.9, gcode/o-code.html; interp_o_word.cc).
 //!
-//! A subprogram has `#1` to `#30` to itself: its arguments, and zeros behind them. What a `return` gives is in
+//! A subprogram has `#1` to `#30` to itself: its arguments, and zeros after them. What a `return` gives is in
 //! `#<_value>`, and whether it gives anything in `#<_value_returned>`. The two kinds of programs must be called by
 //! their own words.
 
@@ -84,7 +84,7 @@ impl Reader {
             return;
         }
         if self.lower.sub.is_some() && self.lower.ended && self.lower.o.open.is_empty() {
-            // Behind a numbered program that is over.
+            // After a numbered program that is over.
             self.end_of_program(out);
         }
         if self.lower.sub.is_some() {
@@ -166,7 +166,7 @@ impl Reader {
         lower.motion_without_move.restore_code(outer.motion_without_move);
         lower.refresh();
         self.frame.faulty |= failed;
-        // Its comment stands behind the subprogram.
+        // Its comment stands after the subprogram.
         let comments = std::mem::take(&mut self.block.comments);
         self.block.clear();
         (self.block.comments, self.block.span) = (comments, span);
@@ -243,7 +243,7 @@ impl Lower {
 
     /// A return from a subprogram.
     pub(in crate::word) fn o_return(&mut self, label: &str, values: Vec<Expr>, span: Span, out: &mut Batch) {
-        // It goes back from the program that it stands in, whatever its label (rs274, run).
+        // It returns from the program that it stands in, whatever its label (rs274, run).
         let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(StructureKind::Sub(_))));
         if own.is_none() && !self.o.standalone.is_open() {
             let what = FlowUnsupported::ReturnNoSub;

@@ -1,8 +1,8 @@
 //! Lowering of O words: settings of parameters, and blocks that decide where a program goes (LinuxCNC 2.9,
 //! gcode/o-code.html; what it leaves open, from interp_o_word.cc).
 //!
-//! Loops and decisions are structures, closed by a block with the same label. A label serves once in its program.
-//! Where control can come to from elsewhere every fact is lost, as behind a call. Refused is what the control does
+//! Loops and branches are structures, closed by a block with the same label. A label serves once in its program.
+//! At a jump target every fact is lost, as after a call. Refused is what the control does
 //! otherwise than its documentation says: a loop of `do` in a text where a loop of `while` is left by `break` (the
 //! mark of a break stays set), a return out of `repeat` (the count stays).
 //!
@@ -38,7 +38,7 @@ fn is_zero(system: &System) -> bool {
 }
 
 impl Lower {
-    /// Looks through text that is to be read for parameters and decisions: from there on it is kept whole.
+    /// Looks through text that is to be read for parameters and branches: from there on it is kept whole.
     pub(in crate::word) fn o_look_ahead(&mut self, text: &[u8], out: &mut Batch) {
         let letter = self.settings.dialect.program.number.map_or(0, |c| c as u8);
         let decides = |line: &[u8]| {
@@ -88,8 +88,8 @@ impl Lower {
     }
 
     /// The settings of a block. They count when the words of the block have been read, which have the values
-    /// before them, as the settings have among themselves; a message has those behind them. `words` is whether the
-    /// words have been said.
+    /// before them, as the settings have among themselves; a message has those after them. `words` is whether the
+    /// words have been stated.
     pub(in crate::word) fn settings(&mut self, block: &Block, words: bool, out: &mut Batch) {
         if block.settings.is_empty() || self.now.failed {
             return;
@@ -238,7 +238,7 @@ impl Lower {
                     | Op::SetSpindleSpeed(_)
             );
             moved |= !says_nothing && !stays;
-            // Where work offsets lie, in the unit in force.
+            // Where work offsets lie, in the active unit.
             let keeps = matches!(
                 stmt.op,
                 Op::SetOriginOffsets(_)

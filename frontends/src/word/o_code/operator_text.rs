@@ -11,7 +11,7 @@ use crate::batch::Batch;
 use crate::common::text::decode;
 use crate::word::lower::Lower;
 
-/// Digits behind the point where nothing is said, and behind `%f`.
+/// Digits after the point where nothing is stated, and after `%f`.
 const DIGITS: u8 = 6;
 const FLOAT_DIGITS: u8 = 4;
 

@@ -17,8 +17,8 @@ use crate::common::Source;
 use crate::word::reader::Reader;
 use crate::word::text::token::FlowWord;
 
-/// Whether a text is the subprogram by whose name its file is called, and nothing else: comments before and behind, the
-/// end of the program behind.
+/// Whether a text is the subprogram by whose name its file is called, and nothing else: comments before and after, the
+/// end of the program after it.
 fn is_whole(text: &[u8], name: &str, dialect: &Dialect) -> bool {
     let mut lines = text.split(|b| *b == b'\n').map(bare).filter(|line| !line.is_empty() && line != "%");
     let is = |line: &str, word: &str| {
@@ -81,14 +81,14 @@ impl Reader {
             return false;
         }
         self.lower.o.standalone = StandaloneOsub::Open(name.into());
-        // Its numbers are its arguments, and zeros behind them.
+        // Its numbers are its arguments, and zeros after them.
         self.lower.o.given.numbered = true;
         self.frame.blocks = true;
         (out.subprogram, out.whole) = (true, true);
         true
     }
 
-    /// Whether a block behind such a subprogram is the end of its file, which its caller never comes to.
+    /// Whether a block after such a subprogram is the end of its file, which its caller never reaches.
     pub(in crate::word) fn ends_the_file(&self, src: Source) -> bool {
         self.lower.o.standalone == StandaloneOsub::Over
             && is_end(&bare(src.bytes(self.block.span)), self.lower.settings.dialect)

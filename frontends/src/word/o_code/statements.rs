@@ -1,4 +1,4 @@
-//! Settings of parameters and decisions of O words, as the grammar makes them.
+//! Settings of parameters and branches of O words, as the grammar makes them.
 
 use ncc_ir::expr::Expr;
 use ncc_ir::source::Span;
@@ -20,7 +20,7 @@ pub(crate) struct Setting {
 pub(crate) struct Decision {
     pub(crate) label: Index,
     pub(crate) word: FlowWord,
-    /// What stands in brackets behind it.
+    /// Contents of the brackets after it.
     pub(crate) values: Vec<Expr>,
 }
 
@@ -32,7 +32,7 @@ pub(in crate::word) fn label_text(label: &str) -> String {
     }
 }
 
-/// The word of a decision.
+/// The word of a branch.
 pub(in crate::word) fn spelled(word: FlowWord) -> &'static str {
     match word {
         FlowWord::Sub => "sub",

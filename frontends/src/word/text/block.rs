@@ -85,7 +85,7 @@ impl Block {
             && self.decision.is_none()
     }
 
-    /// The block where the switch is stated: on, nothing is left of what can be skipped but comments; off, all of it.
+    /// The block where the switch is stated: on, nothing is left of what is under block skip but comments; off, all of it.
     pub(in crate::word) fn with_switch(&mut self, on: bool) {
         self.skip = 0;
         let tail = self.tail.take();
@@ -199,12 +199,12 @@ impl Sink<'_> {
         self.block.names.push(span);
     }
 
-    /// A word behind a comma: its letter is kept as a small one.
+    /// A word after a comma: its letter is kept as a small one.
     pub(crate) fn comma_word(&mut self, start: usize, end: usize, letter: u8, read: Read) {
         self.word(start, end, letter.to_ascii_lowercase(), Some(read));
     }
 
-    /// A word's value; `None` is refused by name.
+    /// A word's value; `None` is refused.
     fn computed(&mut self, start: usize, end: usize, formula: Formula, negative: bool) -> Option<Value> {
         if formula.condition {
             self.refused.push((start, end));
@@ -228,7 +228,7 @@ impl Sink<'_> {
         })
     }
 
-    /// A statement, or a part of one; `None` is refused by name.
+    /// A statement, or a part of one; `None` is refused.
     pub(crate) fn piece(&mut self, start: usize, end: usize, piece: Option<Piece>) {
         if piece.is_none() {
             self.refused.push((start, end));
@@ -311,7 +311,7 @@ impl Sink<'_> {
             return true;
         }
         let mut refused = std::mem::take(&mut self.refused);
-        // What is refused because of its part is told by that.
+        // What is refused because of its part is reported with the part.
         let parts = refused.clone();
         refused.retain(|whole| {
             !parts.iter().any(|part| part != whole && part.0 >= whole.0 && part.1 <= whole.1)
@@ -338,7 +338,7 @@ impl Sink<'_> {
         }
     }
 
-    /// A part of the macro language: refused by name, the whole piece as its text.
+    /// A part of the macro language: refused, the whole piece as its text.
     pub(crate) fn macro_language(&mut self, start: usize, end: usize) {
         let what = self.text(start, end);
         self.fault(Fault::MacroLanguage { what }, start, end);

@@ -62,7 +62,7 @@ fn words(text: &[u8], from: usize, base: u32, block: &mut Block) -> Option<usize
     }
 }
 
-/// The sum that begins at `at`, and where the bracket behind it ends.
+/// The sum that begins at `at`, and where the bracket after it ends.
 fn sum(text: &[u8], at: usize) -> Option<(Formula, usize)> {
     let negative = text.get(at) == Some(&b'-');
     let (first, mut at) = operand(text, at + usize::from(negative))?;

@@ -57,11 +57,11 @@ pub(in crate::word) struct Frame {
     pub(in crate::word) zero: bool,
     /// Whether text before the mark is skipped.
     pub(in crate::word) leader: bool,
-    /// Whether a mark behind the end needs none before the program.
+    /// Whether a mark after the end needs none before the program.
     pub(in crate::word) mark_behind_end: bool,
     /// Whether the mark that opens the text has been met.
     pub(in crate::word) opened: bool,
-    /// A mark with blocks before it that no mark opens; blocks behind it are those that a control would execute.
+    /// A mark with blocks before it that no mark opens; blocks after it are those that a control would execute.
     pub(in crate::word) first_mark: Option<Span>,
     /// Nothing is read any more: the closing mark has been met.
     pub(in crate::word) closed: bool,

@@ -25,7 +25,7 @@ pub(in crate::word) struct Signs {
     line: u8,
     /// Ends a block before the line's end; 0 for none.
     end: u8,
-    /// Marks what can be skipped; 0 for none.
+    /// Marks what is under block skip; 0 for none.
     skip: u8,
     /// Letter of the block number; 0 for none.
     pub(in crate::word) number: u8,
@@ -35,7 +35,7 @@ pub(in crate::word) struct Signs {
     polar: [u8; 2],
     /// Whether the control has variables and expressions.
     macros: bool,
-    /// Whether what they mean is known; else they are refused by name.
+    /// Whether what they mean is known; else they are refused.
     pub(in crate::word) computes: bool,
     /// Whether they are those of O words.
     pub(in crate::word) o_words: bool,
@@ -107,7 +107,7 @@ pub(crate) enum Token {
     End,
     /// Output of text and setting of names: the rest of the block.
     Print,
-    /// A function; `None` is one that is refused by name.
+    /// A function; `None` is one that is refused.
     Function(Option<Function>),
     /// The function of two arguments with a division sign between them.
     Atan,
@@ -227,7 +227,7 @@ const OPERATORS: &[(&[u8], Token)] = &[
     (b"AN", Token::And(Binary::And)),
 ];
 
-/// What stands behind the name of a block that begins with the letter of programs, longest first.
+/// What stands after the name of a block that begins with the letter of programs, longest first.
 const FLOW: &[(&[u8], Token)] = &[
     (b"ENDREPEAT", Token::Flow(FlowWord::EndRepeat)),
     (b"ENDWHILE", Token::Flow(FlowWord::EndWhile)),
@@ -333,7 +333,7 @@ impl<'t> Tokens<'t> {
         let start = self.raw.span().start;
         let (before, rest) = self.raw.source().split_at(start);
         let (found, len) = first_char(rest);
-        // `Y3O.`: the letter, and not the point behind it, is what is wrong.
+        // `Y3O.`: the letter, and not the point after it, is what is wrong.
         if let ([b'.', ..], [.., b'0'..=b'9', b'O' | b'o']) = (rest, before) {
             return Some(Err(Refusal { fault: Fault::LetterOForZero, start: start - 1, end: start }));
         }
@@ -364,7 +364,7 @@ impl<'t> Tokens<'t> {
         }
     }
 
-    /// The block's end; a comment behind it that fills the line still belongs to it.
+    /// The block's end; a comment after it that fills the line still belongs to it.
     fn end_sign(&mut self) {
         let end = self.raw.span().end;
         self.ended = Some(end);
@@ -440,7 +440,7 @@ impl<'t> Tokens<'t> {
         let &(word, token) = statements.iter().chain(operators).find(|(word, token)| {
             // `DO1`, `END1`: without its number the letters are words of their own.
             let numbered = matches!(token, Token::Do | Token::End);
-            // Elsewhere than behind a condition, `GO` is a G and a letter that is meant as a zero.
+            // Elsewhere than after a condition, `GO` is a G and a letter that is meant as a zero.
             let behind = [b"GO".as_slice(), b"TH"].contains(word);
             fits(word)
                 && (!numbered || rest.get(word.len()).is_some_and(|b| b.is_ascii_digit() || *b == b' '))

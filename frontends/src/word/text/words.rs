@@ -1,4 +1,4 @@
-//! Words of a line, by its tokens alone: for somebody who asks which rows of the dictionary stand behind
+//! Words of a line, by its tokens alone: for somebody who asks which rows of the dictionary stand after
 //! it. Not here: what the words mean together.
 
 use ncc_dialects::Dialect;

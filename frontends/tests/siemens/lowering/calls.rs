@@ -129,7 +129,7 @@ fn positions_of_a_subprogram_under_a_cycle_of_its_caller() {
 #[test]
 fn a_subprogram_keeps_to_what_it_was_read_under() {
     let both = "L1\nMCALL CYCLE81(5,0,2,-3)\nL1\nMCALL\n";
-    // Without a motion code it is whatever is in force; with one it cannot be told.
+    // Without a motion code it is whatever is active; with one it is not known.
     assert_eq!(with_subs(both, "%_N_L1_SPF\nX1\nM17\n").1, [] as [&str; 0]);
     assert_eq!(
         with_subs(both, "%_N_L1_SPF\nG0 X1\nM17\n").1,
@@ -175,7 +175,7 @@ fn the_unit_of_a_feed_in_a_subprogram() {
 fn labels_and_repetition() {
     assert_eq!(after_head("N5 A_B: X1\nREPEAT a_b P=3\n"), ["N5 A_B:", "& TRAVERSE X1", "REPEAT A_B x3"]);
     assert_eq!(after_head("AA: X1\nBB: X2\nREPEAT AA BB\n")[4], "REPEAT AA to BB x1");
-    // What is relied on behind a label, by lines that are read the short way too, is another the second time.
+    // What is relied on after a label, by lines that are read the short way too, is another the second time.
     for (mode, line) in [("G1 F100", "X1"), ("G91", "X1"), ("G18", "G2 X1 Y0 I1 J0"), ("G70", "X1")] {
         let text = format!("G71 G90 G17 G0 X0 Y0 F100\nAA:\n{line}\n{line}\n{mode} Z3\nREPEAT AA\n");
         let faults = faults(&text);
@@ -191,7 +191,7 @@ fn labels_and_repetition() {
     assert_eq!(faults("AA: X1\nREPEAT AA P=\"A\"\n").len(), 1);
     assert_eq!(after_head("AA: X1\nX2\nREPEATB AA P=2\n")[3], "REPEAT AA to AA x2");
     assert_eq!(after_head("ENDLABEL:\n"), ["ENDLABEL_1:"]);
-    // The end that stands first behind the label counts; a label of that name is another one.
+    // The end that stands first after the label counts; a label of that name is another one.
     let ends = after_head("AA: X1\nENDLABEL_1: X2\nENDLABEL:\nX3\nENDLABEL:\nREPEAT AA\n");
     assert_eq!(ends.last().map(String::as_str), Some("REPEAT AA to ENDLABEL_2 x1"));
     assert_eq!(after_head("ENDLABEL:\nAA: X1\nREPEAT AA\n")[3], "REPEAT AA x1");
@@ -236,9 +236,9 @@ fn repeated_blocks_find_what_they_found_the_first_time() {
     assert_eq!(faults("AA: G0 X1\nG1 X2\nREPEAT AA\n"), [] as [&str; 0]);
     assert_eq!(faults("AA: G0 X1\nMCALL CYCLE81(5,0,2,-3)\nREPEAT AA\n"), refused);
     assert_eq!(faults("AA: G2 X1 I1\nG18\nREPEAT AA\n"), refused);
-    // What was taken for granted in passing is no other mode.
+    // What was assumed in passing is no other mode.
     assert_eq!(units("AA: G0 X1\nREPEAT AA\nM30\n").1, [] as [&str; 0]);
-    // Behind it, the modes of either end.
+    // After it, the modes of either end.
     assert_eq!(after_head("AA: G91 X1\nBB: X2\nG90\nREPEAT AA BB\nX3\n").pop(), Some("TRAVERSE X?3".into()));
 }
 
@@ -249,7 +249,7 @@ fn ways_in_which_feeds_count_leave_their_subprogram() {
     // A time is one move's; what a feed said before does not count any more.
     assert_eq!(errors("G94 F9\nL1\nG1 X1 F2\n", "G93"), none);
     assert_eq!(errors("G94 F9\nL1\nG1 X1 F2\n", "G93\nG1 X2 F3\nG94"), none);
-    // Which feed is in force after a cycle that has its own is not known; nor one that is said for no move.
+    // Which feed is active after a cycle that has its own is not known; nor one that is stated for no move.
     let last = ["NoFeed at 'M17'"];
     assert_eq!(errors("L1\nG1 X1 F2\n", "G93\nG94\nF5\nCYCLE85(5,0,2,-3,,,9,9)"), last);
     assert_eq!(errors("L1\nG1 X1 F2\n", "G93 F5\nM8"), last);

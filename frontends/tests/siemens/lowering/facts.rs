@@ -1,4 +1,4 @@
-//! What is taken for granted, and what stays open.
+//! What is assumed, and what stays open.
 
 use super::*;
 

@@ -280,8 +280,8 @@ fn the_short_way_takes_what_it_is_for() {
     ] {
         assert_eq!(taken(&head, line), None, "{line}");
     }
-    // A feed in another unit than the lengths is told of; after a skipped block, what one that is
-    // skipped with it finds in force must be looked at.
+    // A feed in another unit than the lengths is reported; after a skipped block, what one that is
+    // skipped with it finds active must be looked at.
     let foreign = "G70 G17 G90 G94 G54\nT1 M6 D1\nF100\nG0 X0 Y0 Z5\nG1 X1\n";
     assert_eq!(taken(foreign, "X2\n"), Some(2));
     assert_eq!(taken(foreign, "X2 F5\n"), None);

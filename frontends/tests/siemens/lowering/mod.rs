@@ -54,7 +54,7 @@ fn diagnostics(out: &Batch, text: &[u8]) -> Vec<String> {
     out.diagnostics.iter().map(place).collect()
 }
 
-/// Says every mode, a tool, a feed, and where the tool stands.
+/// Says every mode, a tool, a feed, and where the tool is.
 const HEAD: &str = "G710 G17 G90 G94 G54\nT1 M6 D1\nF100\nG0 X0 Y0 Z5\n";
 
 /// Faults of a piece after the head, without assumptions, the missing end and subprograms that are

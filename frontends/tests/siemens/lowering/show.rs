@@ -1,5 +1,5 @@
 //! A short rendering of statements for tests. `X1.5` is absolute, `X+=1.5` incremental, `X?1.5`
-//! whatever is in force; a unit stands behind a number unless it is millimetres or a pure number.
+//! whatever is active; a unit stands after a number unless it is millimetres or a pure number.
 
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::expr::Expr;

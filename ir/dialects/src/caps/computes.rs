@@ -12,7 +12,7 @@ use crate::meaning::Meaning;
 use crate::schema::{Dialect, Family};
 use crate::stored::VariableName;
 
-/// Digits of a value in a message where nothing else is said (LinuxCNC 2.9, gcode/overview, comment parameters).
+/// Digits of a value in a message where nothing else is stated (LinuxCNC 2.9, gcode/overview, comment parameters).
 const VALUE_DIGITS: u8 = 6;
 
 /// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90
@@ -86,7 +86,7 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
     }))
 }
 
-/// Values of the control's own that a program of the dialect can ask for. Again those of them that are places of tables,
+/// Values of the control's own that a program of the dialect can ask for. Again those of them that are table entries,
 /// each with the number by which a program has it: that of its parameter, or that of the entry within a name.
 fn systems(dialect: &Dialect) -> (Vec<System>, Vec<(System, i64)>) {
     let (mut all, mut entries) = (Vec::new(), Vec::new());

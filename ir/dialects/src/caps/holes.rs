@@ -1,4 +1,4 @@
-//! Cycles and patterns that a dialect has words for.
+//! Cycles and patterns that a dialect supports.
 
 use ncc_ir::canon::{ReturnLevel, Turn};
 use ncc_ir::caps::{CircleStart, CycleCap, CycleForm, FeedsOutTo, GridWay, HoleCaps, Lift, ReturnsTo};

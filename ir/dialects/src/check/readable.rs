@@ -1,4 +1,4 @@
-//! Rows that no reader ever comes to: refused where a dictionary is loaded.
+//! Rows that no reader ever reaches: refused where a dictionary is loaded.
 //!
 //! ```text
 //! code = "Q52"         Q52 is no G or M code
@@ -16,7 +16,7 @@ use crate::fault::Unreadable;
 use crate::schema::{Dialect, Family};
 use crate::words::{Address, Role};
 
-/// Whether a reader comes to a code and to its words.
+/// Whether a reader reaches a code and its words.
 pub(crate) fn code(dialect: &Dialect, row: &CodeRow) -> Result<(), Unreadable> {
     let letter = row.code.bytes().next();
     if !matches!(letter, Some(b'G' | b'M')) {
@@ -28,7 +28,7 @@ pub(crate) fn code(dialect: &Dialect, row: &CodeRow) -> Result<(), Unreadable> {
     letters(dialect, row.words.chars().chain(row.dwell.iter().map(|word| word.letter)))
 }
 
-/// Whether a reader comes to the words of a cycle.
+/// Whether a reader reaches the words of a cycle.
 pub(crate) fn cycle(dialect: &Dialect, row: &CycleRow) -> Result<(), Unreadable> {
     let dwell = row.dwell.map(|word| word.letter);
     let shrinking = row.shrinking.into_iter().flatten();
@@ -38,7 +38,7 @@ pub(crate) fn cycle(dialect: &Dialect, row: &CycleRow) -> Result<(), Unreadable>
     )
 }
 
-/// Whether a reader comes to the words of a pattern.
+/// Whether a reader reaches the words of a pattern.
 pub(crate) fn pattern(dialect: &Dialect, row: &PatternRow) -> Result<(), Unreadable> {
     match row {
         PatternRow::Circle { first, centre, step, count, .. } => {
@@ -48,7 +48,7 @@ pub(crate) fn pattern(dialect: &Dialect, row: &PatternRow) -> Result<(), Unreada
     }
 }
 
-/// Whether a reader comes to a letter.
+/// Whether a reader reaches a letter.
 pub(crate) fn address(dialect: &Dialect, row: &Address) -> Result<(), Unreadable> {
     let letter = row.letter;
     if !letter.is_ascii_uppercase() {
@@ -63,7 +63,7 @@ pub(crate) fn address(dialect: &Dialect, row: &Address) -> Result<(), Unreadable
     Ok(())
 }
 
-/// Whether a reader comes to words of several letters.
+/// Whether a reader reaches words of several letters.
 pub(crate) fn name(dialect: &Dialect) -> Result<(), Unreadable> {
     match dialect.family {
         Family::Word => Err(Unreadable::Name),

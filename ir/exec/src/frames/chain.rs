@@ -9,7 +9,7 @@ use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::geometry;
 use ncc_ir::program::FrameStep;
 
-/// Frames in force: what the program calls `p` is `turn · p + shift` in the work offset.
+/// Frames active: what the program calls `p` is `turn · p + shift` in the work offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
     /// `None` is no rotation, factor or mirror.

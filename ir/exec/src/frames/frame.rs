@@ -19,7 +19,7 @@ use ncc_ir::program::{Coord, Frame, FrameSlot, Point, Slot, ToolLength};
 use ncc_ir::source::Span;
 use ncc_ir::unexecuted::{FrameUnexecuted, MoveUnexecuted};
 
-/// Which length of a tool is in force.
+/// Which length of a tool is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Length {
     /// An entry of the table; 0 is none.
@@ -79,7 +79,7 @@ impl Present for Now<'_> {
 }
 
 impl Exec {
-    /// Whether the next command of Z takes up a length other than the one in force.
+    /// Whether the next command of Z applies a length other than the active one.
     pub(crate) fn another_length_waits(&self) -> bool {
         self.waiting.is_some_and(|length| self.length_of(length) != self.length_of(self.modes.length))
     }
@@ -161,7 +161,7 @@ impl Exec {
         self.use_slots(frames);
     }
 
-    /// Suspends the shift of the origin, or takes it up again.
+    /// Suspends the G92 shift, or restores it.
     ///
     /// # Errors
     /// Not every number of it is this program's: what an earlier one has left in store, the control alone knows.
@@ -183,7 +183,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Turns the work offset in force, with the shift of the origin and all frames in it; 0 is not turned.
+    /// Turns the active work offset, with the G92 shift and all frames in it; 0 is not turned.
     #[cold]
     pub(crate) fn turn_offset(&mut self, turn: Nanos) {
         let mut chain = Chain::NONE;
@@ -210,7 +210,7 @@ impl Exec {
         self.carry(before);
     }
 
-    /// The shift of the origin: what was said, and of the other axes what was left over.
+    /// The G92 shift: what was stated, and of the other axes what was left over.
     pub(crate) fn origin_shift(&self) -> [Nanos; AXES] {
         let left = if self.modes.shifted { self.world.left_over_shift() } else { [0; AXES] };
         match &self.slots {
@@ -221,7 +221,7 @@ impl Exec {
 
     /// A straight move in machine coordinates: frames and work offset are off, the length is not.
     /// A straight move in machine coordinates: frames and work offset are off, and the length where it
-    /// does not stay. A length that waits is taken up by a Z that is measured with it.
+    /// does not stay. A length that waits takes effect at a Z that is measured with it.
     #[cold]
     pub(crate) fn place_in_machine(
         &mut self,
@@ -250,7 +250,7 @@ impl Exec {
         Ok(())
     }
 
-    /// A length that is no entry of the table; what is added to is the length that waits, or is in force.
+    /// A length that is no entry of the table; what is added to is the length that waits, or is active.
     pub(crate) fn use_length(&mut self, length: &ToolLength, span: Span) -> Result<(), Diagnostic> {
         let before = self.length_of(self.waiting.unwrap_or(self.modes.length));
         let sum = match length {
@@ -289,7 +289,7 @@ impl Exec {
         }
     }
 
-    /// A length that is called up: none, if it is that of the tool in the spindle and the operator has set the zero of Z
+    /// A length that is activated: none, if it is that of the tool in the spindle and the operator has set the zero of Z
     /// by that. Of a tool that no program has named, nobody knows by what.
     pub(crate) fn as_zeroed(&self, length: Length) -> Length {
         let own = match length {

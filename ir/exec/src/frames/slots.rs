@@ -1,6 +1,6 @@
 //! The slots of the coordinate chain between program and work offset, and what they amount to.
 //!
-//! From the machine towards the program: shift of the origin, local shift, rotation, scale, mirror, and
+//! From the machine towards the program: G92 shift, local shift, rotation, scale, mirror, and
 //! the chain of frames. The centre of a rotation is scaled and mirrored like any point, an odd number of
 //! mirrors in its plane turns its sense round, its angle is not scaled (FANUC B-63944EN-2, p. 211).
 //!
@@ -12,7 +12,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::{Nanos, ONE, Unit};
 use ncc_ir::program::{Coord, FrameSlot, FrameStep, Slot};
 
-/// A rotation in force.
+/// An active rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation {
     /// In which plane.
@@ -23,7 +23,7 @@ pub struct Rotation {
     pub angle: Nanos,
 }
 
-/// Factors in force.
+/// Factors active.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
     /// Along X, Y and Z.
@@ -32,20 +32,20 @@ pub struct Scale {
     pub factors: [Nanos; 3],
 }
 
-/// A shift of the origin that is not in force and comes back as it was.
+/// A G92 shift that is not active and comes back as it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Suspended {
     origin: [Option<Nanos>; AXES],
-    /// Whether what an earlier program left over was in force with it.
+    /// Whether what an earlier program left over was active with it.
     left_over: bool,
 }
 
 /// What all slots hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frames {
-    /// Shift of the origin, of axes of which a program has said it; the others have what was left over.
+    /// G92 shift, of axes of which a program has said it; the others have what was left over.
     pub origin: [Option<Nanos>; AXES],
-    /// A shift of the origin that is not in force.
+    /// A G92 shift that is not active.
     pub suspended: Option<Suspended>,
     /// The local shift.
     pub local: [Nanos; AXES],
@@ -69,7 +69,7 @@ pub trait Present {
     fn value(&self, value: &Expr) -> Result<Nanos, Self::Unknown>;
     /// How a word is measured.
     fn distance(&self, word: &Coord) -> Result<Distance, Self::Unknown>;
-    /// Where an axis stands in the work offset with the shift of the origin; all of them are asked for
+    /// Where an axis stands in the work offset with the G92 shift; all of them are asked for
     /// where a frame mixes them.
     fn work(&self, axis: usize) -> Result<Nanos, Self::Unknown>;
     /// A value that no control takes.
@@ -88,7 +88,7 @@ impl Frames {
         steps: Chain::NONE,
     };
 
-    /// What the slots amount to, without the shift of the origin.
+    /// What the slots amount to, without the G92 shift.
     pub fn chain(&self) -> Chain {
         if (self.rotation, self.scale, self.mirror) == (None, None, [None; 3]) && self.local == [0; AXES] {
             return self.steps.clone();
@@ -238,7 +238,7 @@ impl Frames {
         Ok(())
     }
 
-    /// Along one axis, the place that a word names, or where the tool stands.
+    /// Along one axis, the place that a word names, or where the tool is.
     fn place_of<P: Present>(
         &self,
         axis: usize,
@@ -260,7 +260,7 @@ impl Frames {
         }
     }
 
-    /// Gives the present point coordinates by the shift of the origin. `shift` is what there is of it.
+    /// Gives the present point coordinates by the G92 shift. `shift` is what there is of it.
     ///
     /// # Errors
     /// What `now` does not know; a frame that turns, mirrors or scales is out of range.
@@ -284,8 +284,8 @@ impl Frames {
         Ok(())
     }
 
-    /// There is no shift of the origin from here on, until [`Frames::resume`]; a shift that is suspended
-    /// already stays so. `left_over` says whether one of an earlier program is in force.
+    /// No G92 shift is active from here on, until [`Frames::resume`]; a shift that is suspended
+    /// already stays so. `left_over` says whether one of an earlier program is active.
     pub fn suspend(&mut self, left_over: bool) {
         let origin = std::mem::replace(&mut self.origin, [None; AXES]);
         if left_over || origin != [None; AXES] {
@@ -298,8 +298,8 @@ impl Frames {
         self.suspended.as_ref().map(|suspended| suspended.origin[axis].unwrap_or(0))
     }
 
-    /// The shift of the origin is again what it was when it was suspended; without one, nothing changes.
-    /// `true` says that what an earlier program left over is in force again.
+    /// The G92 shift is again what it was when it was suspended; without one, nothing changes.
+    /// `true` says that what an earlier program left over is active again.
     pub fn resume(&mut self) -> bool {
         let Some(Suspended { origin, left_over }) = self.suspended.take() else { return false };
         self.origin = origin;

@@ -1,11 +1,11 @@
-//! Control of the tool's tip, and tilted working planes.
+//! Tool centre point control, and tilted working planes.
 //!
 //! Neither is worked into coordinates: the machine's kinematics are in no program. Points stay what the
 //! program says, of the tip or in the plane, and that they are is an attribute of each move; the plane
 //! itself is an event. How far such points lie from those of the linear axes differs from world to world,
 //! so that what is left out where one is switched shows.
 //!
-//! What controls refuse there, or do each in a way of their own, is refused by name.
+//! What controls refuse there, or do each in a way of their own, is refused.
 
 use crate::{Event, Exec, Kind};
 use ncc_ir::canon::{Axis, Units};
@@ -76,7 +76,7 @@ impl Exec {
         }
     }
 
-    /// Whether points are those of the tool's tip from here on.
+    /// Whether points are those of the tool tip from here on.
     #[cold]
     pub(crate) fn use_tip(&mut self, on: bool, span: Span) -> Result<(), Diagnostic> {
         if on == self.state.tip {
@@ -183,7 +183,7 @@ impl Exec {
         self.emit(Kind::OrientToolAxis(toward), span, out)
     }
 
-    /// Refuses what is no matter of course under control of the tool's tip, or in a tilted plane.
+    /// Refuses what is no matter of course under tool centre point control, or in a tilted plane.
     #[cold]
     pub(crate) fn check_tilted(&self, stmt: &Stmt) -> Result<(), Diagnostic> {
         let what = match (self.state.tip, self.sets_another_frame(&stmt.op)) {
@@ -201,14 +201,14 @@ impl Exec {
             Op::SetOriginOffsets(offset) => *offset != self.modes.work_offset,
             Op::SetFrame(_) | Op::SetPosition(_) => true,
             Op::SetSlot(slot) => !matches!(**slot, Slot::Tilt(_)),
-            // One that is suspended alone is taken up again.
+            // One that is suspended alone is restored.
             Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_) => {
                 self.modes.shifted || self.slots.is_some()
             }
             Op::SetData(data) => match **data {
                 Data::Offset { offset, .. } => offset == self.modes.work_offset,
                 Data::Tool { .. } => self.state.tip,
-                // Where the axes stand behind a switch, the machine alone knows.
+                // Where the axes stand after a switch, the machine alone knows.
                 Data::Position(_) | Data::Measured { .. } => true,
                 Data::ToolInSpindle(_) => self.state.tip,
             },
@@ -236,7 +236,7 @@ impl Exec {
         }
     }
 
-    /// What is refused under control of the tool's tip.
+    /// What is refused under tool centre point control.
     fn refused_at_tip(&self, op: &Op) -> Option<FrameUnexecuted> {
         match op {
             Op::Polar(polar) => self.refused_at_tip(&polar.op),

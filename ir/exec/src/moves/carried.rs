@@ -75,7 +75,7 @@ impl Exec {
         }
     }
 
-    /// Whether a word of one axis moves others in the frames in force.
+    /// Whether a word of one axis moves others in the active frames.
     fn mixes_axes(&self) -> bool {
         let turn = self.chain.as_ref().and_then(|chain| chain.turn());
         let off = |(row, factors): (usize, &[f64; 3])| {

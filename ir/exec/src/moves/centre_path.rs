@@ -1,10 +1,10 @@
-//! Execution of cutter radius compensation by the path of the tool's centre: its events in place of those
+//! Execution of cutter radius compensation by the tool centre path: its events in place of those
 //! of the programmed contour, in machine coordinates, wherever frames have put the contour.
 //!
-//! For a comparison with a program in which the compensation is worked out. A move is held back until the
+//! For a comparison with a program in which the compensation is computed. A move is held back until the
 //! next one of the plane is known, and with it what stands between them. Refused is what nobody has said:
 //! a radius that neither the program nor a profile states; and what has no plain meaning here: a rotary
-//! axis that turns along the contour, feeds by time.
+//! axis that turns along the contour, inverse-time feeds.
 
 use crate::{Event, Exec, Kind};
 use ncc_ir::canon::{AXES, Axis, FeedMode, Plane, Side, Turn, same_point};
@@ -17,7 +17,7 @@ use ncc_ir::lack::CompensationLack;
 use ncc_ir::program::{CutterRadius, Op, Stmt};
 use ncc_ir::source::Span;
 
-/// The path of the tool's centre as it is being found.
+/// The tool centre path as it is being found.
 #[derive(Clone, Debug)]
 pub(crate) struct CentrePath {
     rules: Rules,
@@ -30,7 +30,7 @@ pub(crate) struct CentrePath {
     /// Where the contour is, and where the tool is that goes along it.
     contour: [Nanos; AXES],
     tool: [Nanos; AXES],
-    /// The move whose end is not settled, and what stands behind it.
+    /// The move whose end is not settled, and what stands after it.
     held: Vec<Event>,
     /// The tool is beside the contour that it has to leave.
     leaving: bool,
@@ -38,7 +38,7 @@ pub(crate) struct CentrePath {
     left_out: Option<Vec<AsProgrammed>>,
 }
 
-/// A compensated contour that was executed as it is programmed, though the path of the tool's centre was wanted.
+/// A compensated contour that was executed as it is programmed, though the tool centre path was wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AsProgrammed {
     /// Why: the fault that stops a comparison there.
@@ -62,7 +62,7 @@ fn unreachable(why: Unreachable, span: Span) -> Diagnostic {
 }
 
 impl Exec {
-    /// Makes events of the path of the tool's centre where a contour is compensated.
+    /// Makes events of the tool centre path where a contour is compensated.
     pub fn compute_compensation(&mut self, rules: Rules) {
         self.follow_centre(rules, None);
     }
@@ -218,7 +218,7 @@ impl Exec {
 }
 
 impl CentrePath {
-    /// An event behind the contour's end; `named` says whether it leads away from there.
+    /// An event after the contour's end; `named` says whether it leads away from there.
     fn away(&mut self, mut event: Event, named: bool, out: &mut Vec<Event>) {
         event.state.compensation = crate::Compensation::default();
         if event.kind.moves().is_some() {
@@ -364,7 +364,7 @@ impl CentrePath {
         (feed as f64 * part).round() as Nanos
     }
 
-    /// Ends the held move, and passes on what stands behind it.
+    /// Ends the held move, and passes on what stands after it.
     fn settle(&mut self, end: Spot, out: &mut Vec<Event>) {
         for mut event in self.held.drain(..) {
             if event.kind.moves().is_some() {

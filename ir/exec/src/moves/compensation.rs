@@ -3,7 +3,7 @@
 //!
 //! What controls refuse under compensation, or do each in a way of their own, is refused here by name:
 //! an arc as the first move or as the one that leaves, cycles, another plane, another frame, another
-//! tool or length, moves to points of the machine. Not here: the path of the tool's centre.
+//! tool or length, moves to reference points. Not here: the tool centre path.
 
 use crate::{Event, Exec, Kind, Length};
 use ncc_ir::behaviour::Behaviour;
@@ -30,7 +30,7 @@ pub struct Compensation {
     /// this move: some controls then do not look as far as this move for the corner before it.
     pub gap: bool,
     /// Whether it was switched on again, while it was on, for this move: the contour before it ends as the control
-    /// ends one, and this move goes onto it anew.
+    /// ends one, and this move goes onto it again.
     pub again: bool,
     /// Of an arc: whether F counts along the contour, and not at the tool centre.
     pub on_contour: bool,
@@ -196,7 +196,7 @@ impl Exec {
                     return Ok(self.world.tables.named_entries[&(tool, edge)] & !(EDGE | STATED));
                 }
                 Length::Edge(tool, edge) => {
-                    // Any two tools of a program are told apart by this.
+                    // Any two tools of a program are distinguished by this.
                     let tool = u32::try_from(tool).map_or(tool, |n| i64::from(self.world.tool_number(n)));
                     let tool = (tool as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
                     return Ok(EDGE | (tool as u32) << 4 | edge);
@@ -353,7 +353,7 @@ impl Exec {
         [of(0, 0), of(0, 1), of(1, 0), of(1, 1)].into_iter().flatten().min_by_key(|(at, _)| at.start)
     }
 
-    /// Whether these statements come to an arc under compensation on which no code of the program says what F counts.
+    /// Whether these statements reach an arc under compensation on which no code of the program says what F counts.
     pub(crate) fn feeds_arcs_in(&self, stmts: &[Stmt]) -> bool {
         let starts = |stmt: &Stmt| matches!(stmt.op, Op::StartCutterRadiusCompensation { .. });
         self.state.advice & arc_feed::ADVICE == 0

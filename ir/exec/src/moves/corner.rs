@@ -1,7 +1,7 @@
 //! Execution of corners: the move before one is held back until the next move of the plane shows how
 //! much of both goes, and what is put between them.
 //!
-//! Refused by name is what controls refuse here, or do each in a way of their own: a corner without a
+//! Refused is what controls refuse here, or do each in a way of their own: a corner without a
 //! next move, or with anything but settings before it; beside a rapid or a move that leaves the plane;
 //! between moves of different feeds, or taken differently; in a frame that scales. Not here: the geometry
 //! (`corner`).
@@ -21,7 +21,7 @@ use ncc_ir::unexecuted::{CornerUnexecuted, NoCorner};
 pub(crate) struct Corner {
     /// For the move that comes next.
     asked: Option<Asked>,
-    /// Behind the move that is held back.
+    /// After the move that is held back.
     held: Option<Held>,
 }
 
@@ -38,7 +38,7 @@ struct Held {
     plane: Plane,
     leg: Leg,
     event: Event,
-    /// What was told since.
+    /// What was reported since.
     reported: Vec<Event>,
 }
 
@@ -74,7 +74,7 @@ impl Exec {
         corner.asked.or(corner.held.as_ref().map(|held| held.asked)).map(|asked| asked.span)
     }
 
-    /// What is told of a corner that has no next move, if there is one.
+    /// What is reported of a corner that has no next move, if there is one.
     ///
     /// # Errors
     /// There is one.
@@ -85,7 +85,7 @@ impl Exec {
         }
     }
 
-    /// Asks for a corner behind the next move.
+    /// Asks for a corner after the next move.
     #[cold]
     pub(crate) fn ask_corner(
         &mut self,
@@ -140,7 +140,7 @@ impl Exec {
         Ok(())
     }
 
-    /// A move with a corner before it, behind it or both.
+    /// A move with a corner before it, after it or both.
     fn move_at_corner(
         &mut self,
         stmt: &Stmt,
@@ -303,7 +303,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Refuses frames behind which a length of the plane is another one.
+    /// Refuses frames after which a length of the plane is another one.
     fn undistorted(&self, plane: Plane, span: Span) -> Result<(), Diagnostic> {
         if self.chain.is_none() {
             return Ok(());

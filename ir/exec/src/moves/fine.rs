@@ -1,7 +1,7 @@
 //! Digits of incremental words that are below the least increment of a control.
 //!
 //! Two hundred times X0.0005 is a tenth of a millimetre, or nothing where each word is cut off to thousandths. Of
-//! absolute words no more than the last digit is in question: they are taken as they stand.
+//! absolute words no more than the least increment is in question: they are taken as they stand.
 
 use crate::Exec;
 use ncc_ir::behaviour::Behaviour;
@@ -12,7 +12,7 @@ use ncc_ir::program::arguments::words_of;
 use ncc_ir::program::{Coord, Op, Stmt};
 use ncc_ir::source::Span;
 
-/// Least increments of a control, as digits behind the point: of millimetres, of inches, of degrees.
+/// Least increments of a control, as digits after the point: of millimetres, of inches, of degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Increments {
     /// Of millimetres, 0 to 9.
@@ -24,7 +24,7 @@ pub struct Increments {
 }
 
 impl Increments {
-    /// Digits behind the point of an axis.
+    /// Digits after the point of an axis.
     pub fn digits(self, axis: usize, inch: bool) -> u8 {
         match (axis < 3, inch) {
             (false, _) => self.degree,

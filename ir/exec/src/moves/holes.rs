@@ -23,7 +23,7 @@ use ncc_ir::unsupported::CycleUnsupported;
 /// Most pecks of one hole; more is a slip of the pen.
 const MAX_PECKS: i64 = 100_000;
 
-/// A cycle in force, in program coordinates.
+/// An active cycle, in program coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ActiveCycle {
     plane: Plane,
@@ -152,7 +152,7 @@ impl Exec {
         let plane = self.plane_of(cycle.plane);
         let normal = plane.axes().2 as usize;
         if self.cycle.as_ref().is_some_and(|cycle| cycle.plane != plane) {
-            // 16-C: the drilling axis is changed when no cycle is in force.
+            // 16-C: the drilling axis is changed when no cycle is active.
             return self.not_executed(CycleUnexecuted::OtherAxis, span);
         }
         let initial = self.cycle.as_ref().map_or(self.position[normal], |c| c.initial);
@@ -367,7 +367,7 @@ impl Exec {
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
         let by_height = matches!(cycle.approach, Approach::RaiseFirst | Approach::ClearFirst);
         if by_height && normal == self.along && self.waiting.is_some() {
-            // Which way comes first depends on where the tool stands by the length that is taken up on it.
+            // Which way comes first depends on where the tool is by the length that takes effect on it.
             return self.fault(Fault::not_executed(CycleUnexecuted::LengthAtFirstHole), span);
         }
         if leg == Leg::Level {

@@ -1,4 +1,4 @@
-//! Lines executed for their effect on the state alone, where nothing is in force that would ask for more: most of most
+//! Lines executed for their effect on the state alone, where nothing is active that would ask for more: most of most
 //! programs. What is not so plain is left to [`Exec::step`].
 
 pub(crate) mod paced;
@@ -62,7 +62,7 @@ impl Exec {
         self.state.feed_mode != FeedMode::InverseTime && self.takes_timed_lines()
     }
 
-    /// The same, whatever a line makes besides an event of it. (The path of the tool's centre counts on a contour, which is
+    /// The same, whatever a line makes besides an event of it. (The tool centre path counts on a contour, which is
     /// watched, alone.)
     pub(crate) fn goes_plainly(&self) -> bool {
         let state = &self.state;
@@ -155,7 +155,7 @@ impl Exec {
         let mut named = 0;
         for (axis, (word, place)) in to.axes[..3].iter().zip(next).enumerate() {
             let Some(word) = word else { continue };
-            // What has no value is told by the step that executes it.
+            // What has no value is reported by the step that executes it.
             *place = self.plain_value(&word.value)?;
             if word.distance.or(Distance::Absolute) != Distance::Absolute {
                 return None;
@@ -179,7 +179,7 @@ impl Exec {
         self.place(next)
     }
 
-    /// Executes a line where nothing is in force that would ask for more than its event; whether it did. Without an error
+    /// Executes a line where nothing is active that would ask for more than its event; whether it did. Without an error
     /// and without effect where it did not.
     #[inline]
     pub(crate) fn plain_line(
@@ -230,7 +230,7 @@ mod tests {
         stmt(if feed { Op::StraightFeed(line) } else { Op::StraightTraverse(line) })
     }
 
-    /// Executes a statement by way of everything that may be in force.
+    /// Executes a statement through everything that may be active.
     fn step_the_long_way(exec: &mut Exec, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let straight = match &stmt.op {
             Op::StraightFeed(to) => Some((to, true)),
@@ -247,7 +247,7 @@ mod tests {
         }
     }
 
-    /// Where moves that go nowhere are told too, both ways make the same events.
+    /// Where moves that go nowhere are reported too, both ways make the same events.
     fn told_alike(before: &Exec, lines: &[Stmt], what: &str) {
         for (narrates, every_move) in [(true, false), (false, true), (true, true)] {
             let [mut one, mut other] = [before, before].map(Exec::clone);

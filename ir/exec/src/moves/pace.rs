@@ -1,4 +1,4 @@
-//! How long moves take whose F each control counts in a way of its own: arcs with a feed by time, and linear and rotary
+//! How long moves take whose F each control counts in a way of its own: arcs with an inverse-time feed, and linear and rotary
 //! axes together. Such a move's event has the time in the place of the feed, as one over minutes, so that the comparison
 //! holds the times of both controls together, whatever words say them.
 //!
@@ -69,7 +69,7 @@ impl Exec {
         rate(number / way)
     }
 
-    /// The time of an arc of so many degrees, where F by time counts radii.
+    /// The time of an arc of so many degrees, where inverse-time F counts radii.
     pub(crate) fn pace_of_arc(&mut self, degrees: f64) -> Pace {
         if self.state.feed_mode != FeedMode::InverseTime || !self.does(Behaviour::ArcByTime) {
             return None;

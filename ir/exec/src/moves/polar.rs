@@ -1,4 +1,4 @@
-//! Execution of polar points: the pole in force, and moves to points by radius and angle.
+//! Execution of polar points: the active pole, and moves to points by radius and angle.
 //!
 //! Not here: where such a point is (`polar`).
 

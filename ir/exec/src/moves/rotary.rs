@@ -1,4 +1,4 @@
-//! How far, and which way round, an absolute word turns a rotary axis.
+//! How far, and in which direction, an absolute word turns a rotary axis.
 //!
 //! As far as its number says; or the shortest way to that angle; or to that angle in the direction of the number's sign.
 //! From a place that the program has not said itself it turns as its number says on all controls: nobody could tell.
@@ -79,7 +79,7 @@ impl Exec {
     /// Whether any of these statements turns a rotary axis in a way that controls do not agree about.
     pub(crate) fn turns_far_in(&self, stmts: &[Stmt]) -> bool {
         let (mut at, mut known, mut distance) = (self.position, self.turned_known, self.modes.distance);
-        // Behind another zero, where an axis stands hangs on the tables.
+        // After another zero, where an axis stands hangs on the tables.
         let mut elsewhere = 0;
         for stmt in stmts.iter().filter(|stmt| !self.skips(stmt)) {
             let to = match &stmt.op {

@@ -1,6 +1,6 @@
 //! What a speed of the spindle counts, and its limit: what needs to be so before anything happens.
 //!
-//! Not here: turning and stopping it (`motion_modes`), and what goes in step with it (`thread`).
+//! Not here: turning and stopping it (`motion_modes`), and what goes synchronised with it (`thread`).
 
 use crate::{Attribute, Event, Exec, Kind};
 use ncc_ir::canon::{Spindle, SpindleMode, Units};
@@ -46,7 +46,7 @@ impl Exec {
         }
     }
 
-    /// Under a speed in turns, a limit below it counts on some controls alone.
+    /// Under a speed in rev/min, a limit below it counts on some controls alone.
     pub(crate) fn within_limit(&self, span: Span) -> Result<(), Diagnostic> {
         let state = &self.state;
         let limited = state.limit != u32::MAX && state.spindle != Spindle::Stopped;
@@ -61,8 +61,8 @@ impl Exec {
     /// surface speed is measured from.
     ///
     /// # Errors
-    /// No speed since what it counts has changed, or its unit; a surface speed in a frame of the program, or with the path
-    /// of the tool's centre worked out: which X is the radius then, controls may not agree about.
+    /// No speed since what it counts has changed, or its unit; a surface speed in a frame of the program, or with the tool centre path
+    /// computed: which X is the radius then, controls may not agree about.
     #[cold]
     pub(crate) fn watch_speed(&mut self, kind: &Kind, span: Span) -> Result<(), Diagnostic> {
         if self.state.spindle == Spindle::Stopped || matches!(kind, Kind::Attribute(_)) {

@@ -22,7 +22,7 @@ pub(crate) struct Standing {
     cut: Option<Span>,
     /// Whether the spindle is meant to stand.
     meant: bool,
-    /// Whether the speed in force is an S0 of the program.
+    /// Whether the active speed is an S0 of the program.
     pub(crate) at_zero: bool,
 }
 
@@ -32,7 +32,7 @@ impl Exec {
         self.standing.cut
     }
 
-    /// Something happens while the spindle stands.
+    /// Something happens while the spindle is stopped.
     #[cold]
     pub(crate) fn stands_at(&mut self, kind: &Kind, span: Span) {
         let standing = &mut self.standing;

@@ -1,4 +1,4 @@
-//! Execution of what goes in step with the spindle, and of what a cycle does with the spindle.
+//! Execution of what goes synchronised with the spindle, and of what a cycle does with the spindle.
 //!
 //! Not here: how a hole is reached and left (`holes`).
 
@@ -12,7 +12,7 @@ use ncc_ir::source::Span;
 use ncc_ir::unexecuted::MoveUnexecuted;
 
 impl Exec {
-    /// A straight move in step with the spindle, said by the program.
+    /// A straight spindle-synchronised move, said by the program.
     pub(crate) fn synchronised(
         &mut self,
         m: &Synchronised,
@@ -28,12 +28,12 @@ impl Exec {
             return self.not_executed(MoveUnexecuted::ThreadSpindleStopped, span);
         }
         if self.another_length_waits() && m.to.axes[self.along].is_some() {
-            // From where it goes by the length before, to where it goes by the one that is taken up on it.
+            // From where it goes by the length before, to where it goes by the one that takes effect on it.
             return self.not_executed(MoveUnexecuted::ThreadTakesLength, span);
         }
         self.set_axes(&m.to, span)?;
         self.heading = crate::Heading::None;
-        // Bare axis words after it are no plain feed: without a cycle in force they are an error.
+        // Bare axis words after it are no plain feed: without an active cycle they are an error.
         self.modes.motion = Motion::Cycle;
         self.said |= crate::MOTION;
         self.cycle = None;
@@ -67,7 +67,7 @@ impl Exec {
         }
     }
 
-    /// Emits a move to the present position in step with the spindle as it turns.
+    /// Emits a move to the present position synchronised with the spindle as it turns.
     pub(crate) fn in_step(
         &mut self,
         stated: Option<Nanos>,
@@ -96,7 +96,7 @@ impl Exec {
         self.emit(Kind::Synchronised { pitch, chuck }, span, out)
     }
 
-    /// How far the feed in force goes in one turn.
+    /// How far the active feed goes in one turn.
     fn feed_of_a_turn(&self, speed: Nanos) -> Nanos {
         if self.state.feed_mode == FeedMode::PerRevolution {
             return self.feed;

@@ -1,4 +1,4 @@
-//! A program made ready to be run: its procedures as steps one behind the other, between which control goes.
+//! A program lowered for execution: a flat list of steps with resolved jump targets.
 //!
 //! Names of procedures, labels and variables are looked up here, once. Not here: running (`run`).
 
@@ -39,9 +39,9 @@ pub(crate) enum Step<'p> {
     UnlessCounted(&'p Stmt, Box<Counter>, At),
     /// Adds the pace to the counter.
     Count(&'p Stmt, Box<Counter>),
-    /// Begins a body that is executed so many times; behind it, there.
+    /// Begins a body that is executed so many times; after it, there.
     Turns(&'p Stmt, Box<Term>, At),
-    /// Another turn of the body that begins there, if any are left.
+    /// Another iteration of the body that begins there, if any are left.
     Again(&'p Stmt, At),
     /// Goes there.
     Jump(&'p Stmt, At),
@@ -344,7 +344,7 @@ impl<'p> Maker<'p> {
         self.counted = outside;
     }
 
-    /// The next turn of the body begins here.
+    /// The next iteration of the body begins here.
     fn next_turn_here(&mut self) {
         let here = self.here();
         if let Some(turning) = self.turning.last_mut() {
@@ -355,7 +355,7 @@ impl<'p> Maker<'p> {
         }
     }
 
-    /// Behind the body; the next turn is begun at `head`, if it was not said where.
+    /// After the body; the next turn is begun at `head`, if it was not said where.
     fn left_here(&mut self, head: At) {
         let here = self.here();
         if let Some(turning) = self.turning.pop() {

@@ -1,6 +1,6 @@
 //! A statement's arguments, computed: literals in the places of expressions.
 //!
-//! Not here: what an expression is worth (`term`).
+//! Not here: the value of an expression (`term`).
 
 use std::rc::Rc;
 
@@ -114,7 +114,7 @@ fn written(stmt: &Stmt) -> Stmt {
         Op::StraightTraverse(to) => Op::StraightTraverse(plain(to)),
         Op::Position(to) => Op::Position(plain(to)),
         Op::Hole(to) => Op::Hole(plain(to)),
-        // The whole of it is made anew each time.
+        // The whole of it is made again each time.
         _ => Op::Blank,
     };
     let Stmt { span, number, skip, joined, .. } = *stmt;

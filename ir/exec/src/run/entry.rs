@@ -1,4 +1,4 @@
-//! What a program leaves to the control: facts that are taken for granted at its entry, and which of them it
+//! What a program leaves to the control: facts that are assumed at its entry, and which of them it
 //! has never said.
 
 use crate::{DISTANCE, Exec, FEED_MODE, LENGTH, Length, MOTION, PLANE, RETURN, SHIFT, UNITS, WORK};
@@ -17,7 +17,7 @@ impl Exec {
         self.last = self.machine();
     }
 
-    /// Has a tool in the spindle, and its T code in force, before the program begins (a stated start).
+    /// Has a tool in the spindle, and its T code active, before the program begins (a stated start).
     pub fn hold_tool(&mut self, tool: u32) {
         let tool = i64::from(tool);
         (self.state.tool, self.selected, self.changed_to) = (tool, tool, tool);

@@ -1,11 +1,11 @@
-//! What a program leaves in force at its end, and what its next run makes of that.
+//! What a program leaves active at its end, and what its next run makes of that.
 //!
 //! Shifts and frames outlive a program on some controls and die with it on others. A program that moves by a slot
 //! before it has filled it is another program when it runs again and the slot has been left full. So two runs in a row
 //! need not be executed: it is enough to know by which slots the program moves as they were left, and what it leaves
 //! in them.
 //!
-//! Not here: modes that outlive a program. What a program takes for granted of them is told, and stated in the output.
+//! Not here: modes that outlive a program. What a program assumes of them is reported, and stated in the output.
 
 use crate::frames::frame::Length;
 use crate::{Exec, Frames};
@@ -16,7 +16,7 @@ use ncc_ir::expr::num::{Nanos, ONE};
 use ncc_ir::program::{FrameSlot, Slot};
 use ncc_ir::source::Span;
 
-/// Bits of the axes of the local shift, of the shift of the origin, and of whole slots.
+/// Bits of the axes of the local shift, of the G92 shift, and of whole slots.
 const LOCAL: u32 = 0;
 const ORIGIN: u32 = AXES as u32;
 const TURN: u32 = 1 << (2 * AXES);
@@ -34,7 +34,7 @@ pub(crate) struct Outlived {
     at: Option<Span>,
     /// Whether a code of the program has ended it.
     by_code: bool,
-    /// The code that has it begin anew, with all that is in force.
+    /// The code that has it begin again, with all that is active.
     again: Option<Span>,
 }
 
@@ -92,13 +92,13 @@ impl Exec {
         self.outlived.by_code = true;
     }
 
-    /// The program begins anew.
+    /// The program begins again.
     pub(crate) fn begins_again(&mut self, at: Span) {
         (self.outlived.by_code, self.outlived.again) = (true, Some(at));
     }
 
-    /// The first mode that the program takes for granted at its start (`assumed`), and has not in force where it begins
-    /// anew, and where that is.
+    /// The first mode that the program assumes at its start (`assumed`), which is not active where it begins
+    /// again, and where that is.
     pub fn begins_otherwise(&self, assumed: &Modes) -> Option<(ModeName, Span)> {
         let at = self.outlived.again?;
         let length = match self.waiting.unwrap_or(self.modes.length) {

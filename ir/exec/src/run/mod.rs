@@ -59,7 +59,7 @@ pub struct Runner<'p> {
     lines: LinesAhead<'p>,
     /// Whether [`Runner::run`] halts before them.
     halts_at_lines: bool,
-    /// Calls in force; the first is the main procedure.
+    /// Calls active; the first is the main procedure.
     calls: Vec<Frame>,
     /// Further turns of the bodies that are counted and open.
     turns: Vec<u64>,
@@ -75,7 +75,7 @@ pub struct Runner<'p> {
     /// Steps at the last event.
     pub(super) eventful: u64,
     endless_loop: EndlessLoop,
-    /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
+    /// Covered sides of each branch: 1 where it held, 2 where it did not.
     taken: Vec<u8>,
     /// Most steps of all.
     most: u64,
@@ -160,15 +160,15 @@ impl<'p> Runner<'p> {
         self.most_idle = most;
     }
 
-    /// Adds the ways of decisions that were taken to those of other runs of the same program.
+    /// Adds the covered sides of branches to those of other runs of the same program.
     pub fn add_taken(&self, all: &mut Vec<u8>) {
         all.resize(self.taken.len(), 0);
         all.iter_mut().zip(&self.taken).for_each(|(all, taken)| *all |= taken);
     }
 
-    /// Decisions of which not both ways are among those that were taken, in the order of the text: the ways that
+    /// Branches with an uncovered side, in the order of the text: the ways that
     /// were, 0 to 2, as of [`Runner::add_taken`]. Checks that the call of a cycle makes of its own values are not
-    /// the program's decisions.
+    /// the program's branches.
     pub fn uncovered_branches(&self, all: &[u8]) -> Vec<(Span, u8)> {
         let steps = self.code.steps.iter().zip(all).enumerate();
         let mut found: Vec<(Span, u8)> = steps
@@ -182,23 +182,23 @@ impl<'p> Runner<'p> {
             })
             .collect();
         found.sort_by_key(|(span, _)| span.start);
-        // Of decisions that are made of one place, one that was not come to says nothing further.
+        // Of branches that are made of one place, one that was not reached says nothing further.
         found.dedup_by(|next, before| next.0 == before.0 && next.1 == 0);
         found
     }
 
-    /// How many decisions there are of which not both ways were taken, such checks among them.
+    /// Number of branches with an uncovered side, such checks included.
     pub fn open_ways(&self, all: &[u8]) -> usize {
         let decides = |step: &Step| matches!(step, Step::Unless(..) | Step::UnlessCounted(..));
         self.code.steps.iter().zip(all).filter(|(step, taken)| decides(step) && **taken != 3).count()
     }
 
-    /// Whether no value comes to a step, behind the last code of a group.
+    /// Whether no value reaches a step, after the last code of a group.
     fn is_no_code(&self, at: u32) -> bool {
         matches!(self.code.steps.get(at as usize), Some(Step::Do(stmt)) if is_last(&stmt.op))
     }
 
-    /// Whether a decision is an alarm's, of the block that then calls up a cycle.
+    /// Whether a branch is an alarm's, of the block that then activates a cycle.
     fn is_check(&self, at: usize, block: Span) -> bool {
         let is = |at: usize, op: fn(&Op) -> bool| {
             let step = self.code.steps.get(at);
@@ -318,7 +318,7 @@ impl<'p> Runner<'p> {
                 }
                 Step::Return(_) => {
                     exec.no_open_corner()?;
-                    // A subprogram that stands alone has been executed.
+                    // A standalone subprogram has been executed.
                     if !self.leave() {
                         return Ok(None);
                     }
@@ -340,7 +340,7 @@ impl<'p> Runner<'p> {
         Ok(self.lines.take())
     }
 
-    /// A decision: goes there where it does not hold.
+    /// A branch: goes there where it does not hold.
     #[inline]
     fn decide(&mut self, fails: bool, to: At) {
         self.taken[self.at as usize - 1] |= if fails { 2 } else { 1 };
@@ -389,7 +389,7 @@ impl<'p> Runner<'p> {
         self.halts_at_lines = halts;
     }
 
-    /// Whether the run halts here: before packed moves, or behind the first of them where control has come to it.
+    /// Whether the run halts here: before packed moves, or after the first of them where control has reached it.
     #[inline]
     fn is_before_lines(&mut self, exec: &Exec) -> bool {
         let are_next = matches!(self.code.steps.get(self.at as usize), Some(Step::Lines(..)));

@@ -48,7 +48,7 @@ pub(crate) struct Indexed {
 /// All those of which one is meant.
 type Rows = Rc<[Row]>;
 
-/// Places of variables one behind the other.
+/// Places of variables one after the other.
 #[derive(Clone, Debug)]
 struct Row {
     /// The number of the first.
@@ -310,7 +310,7 @@ impl Asked<'_> {
 /// Variables while a program runs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Variables {
-    /// Those of all calls in force, one after the other.
+    /// Those of all active calls, one after the other.
     pub(crate) locals: Vec<Value>,
     /// Where those of the present call begin.
     pub(crate) base: usize,
@@ -369,7 +369,7 @@ impl Variables {
         found.ok_or(Why::Index)
     }
 
-    /// What an expression is worth. With another sign, or rounded to some digits, nothing stays nothing: a word
+    /// The value of an expression. With another sign, or rounded to some digits, nothing stays nothing: a word
     /// `X-#1` is left out where `X#1` is.
     #[inline]
     pub(crate) fn value(&self, term: &Term, asked: Asked) -> Result<Value, Why> {

@@ -1,6 +1,6 @@
 //! What a control does besides the names of codes, in a comparison.
 //!
-//! A Haas takes Z to machine zero at M06, and a target without words for it stays. Both do the same as long as nothing is
+//! A Haas takes Z to machine zero at M06, and a target that lacks it stays. Both do the same as long as nothing is
 //! cut, and as long as the program says nothing of it:
 //!
 //! ```text

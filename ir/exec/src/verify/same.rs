@@ -26,7 +26,7 @@ impl Comparison {
         (number, text) == there || said == Some(there)
     }
 
-    /// Whether feeds are the same but for the target's last digit, and count the same; `timed` where one of the controls
+    /// Whether feeds are the same but for the target's least increment, and count the same; `timed` where one of the controls
     /// counts in a way of its own.
     #[inline]
     fn same_rate([a, b]: [Nanos; 2], [mode, other]: [FeedMode; 2], timed: bool, most: Nanos) -> bool {
@@ -56,7 +56,7 @@ impl Comparison {
             return true;
         }
         let apart = a.speed.abs_diff(b.speed);
-        // What a surface's speed counts is no unit of the last digit in inches.
+        // What a surface's speed counts is no unit of the least increment in inches.
         let turns = a.spindle_mode == SpindleMode::Turns;
         if turns && apart != 0 && apart <= Resolution::half(self.resolution.speed, false) as u64 {
             // As lengths, a speed is what the target's digits say of it.
@@ -73,7 +73,7 @@ impl Comparison {
         if self.tools.is_none() && self.named.is_empty() {
             return a.same(b);
         }
-        // One that the source calls by name is told from all that it calls by number.
+        // One that the source calls by name is distinguished from all that it calls by number.
         let named = u32::try_from(b.tool).ok().and_then(|tool| self.named.get(&tool));
         if named == Some(&a.tool) {
             return a.same(&State { tool: a.tool, ..*b });
@@ -107,8 +107,7 @@ impl Comparison {
         )
     }
 
-    /// Whether one of two arcs is a full circle and the other nearly one, which ends where it begins to half a unit of the
-    /// last digit.
+    /// Whether one of two arcs is a full circle and the other nearly one, which ends where it begins to half the least increment.
     fn as_good_as_full(&self, a: &Event, b: &Event) -> bool {
         let full = |event: &Event| matches!(event.kind, Kind::Arc { full: true, .. });
         let (nearly, start) = if full(b) { (a, &self.source_at) } else { (b, &self.target_at) };
@@ -137,7 +136,7 @@ impl Comparison {
         })
     }
 
-    /// Whether the same is put into the tables, to half a unit of the last digit.
+    /// Whether the same is put into the tables, to half the least increment.
     fn same_data(&self, a: &Stored, b: &Stored, inch: bool) -> bool {
         let near = |x: Nanos, y: Nanos| x.abs_diff(y) <= self.half[usize::from(inch)].max(self.within) as u64;
         match (a, b) {
@@ -191,7 +190,7 @@ impl Comparison {
                 }
             }
             (Kind::Synchronised { pitch, chuck }, Kind::Synchronised { pitch: p2, chuck: c2 }) => {
-                // Where a pitch is said by feed and speed, it is as fine as the feed.
+                // Where a pitch is stated by feed and speed, it is as fine as the feed.
                 let finest = if b.state.speed == 0 {
                     0
                 } else {

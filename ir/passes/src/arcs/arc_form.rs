@@ -1,4 +1,4 @@
-//! `arc-form`: arcs by angle, through a point, tangent, or with a centre measured both ways are
+//! `arc-form`: arcs by angle, through a point, tangent, or with a centre measured in both distance modes are
 //! written by their centre.
 //!
 //! Where the tool stands must be known (a tangent arc straight ahead is a line), and for a tangent arc which way it came.
@@ -94,7 +94,7 @@ pub(crate) fn convert_arc_form(
         }
         state.step(stmt, walk);
         if refused {
-            // It is told once.
+            // It is reported once.
             stmt.op = Op::Blank;
         }
         if let Some(Exactly { end, heading }) = exactly {

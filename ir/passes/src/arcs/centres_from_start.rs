@@ -1,7 +1,7 @@
 //! Centres of arcs that are computed and count from program zero, for a target whose centres count from where the arc
 //! starts: where that is, the program asks the control for (`#5001`).
 //!
-//! Not here: centres that are written out, which become differences where the start is known, and those of targets
+//! Not here: stated centres, which become differences where the start is known, and those of targets
 //! whose words say from where they count.
 
 use crate::pass::Pass;
@@ -48,7 +48,7 @@ fn from_start(arc: &mut Arc) {
     for (axis, word) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(words) {
         let Some(word) = word else { continue };
         let start = Expr::Node(Box::new(Node::Var(Var::System(System::EndPoint(axis)))));
-        // A number in an expression counts in the unit in force, in which its word was written.
+        // A number in an expression counts in the active unit, in which its word was written.
         let centre = match std::mem::replace(word, Expr::int(0)) {
             Expr::Num(num) => Expr::Num(Num { unit: Unit::One, ..num }),
             centre => centre,

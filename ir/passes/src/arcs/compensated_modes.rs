@@ -63,7 +63,7 @@ pub(crate) struct CompensatedModesState {
     path: Option<PathControl>,
     level: Option<ReturnLevel>,
     work: Option<u16>,
-    /// Whether the block at hand has a code that acts behind those of compensation, or has switched it off.
+    /// Whether the block at hand has a code that acts after those of compensation, or has switched it off.
     acts_behind: bool,
     stopped: bool,
 }

@@ -66,7 +66,7 @@ pub(crate) fn centre_of(arc: &mut Arc, walk: &Walk, target: &Target) -> Result<(
     Ok(())
 }
 
-/// Unit of length in which an arc is written. Where the unit in force is not known, the words of the arc may still state
+/// Unit of length in which an arc is written. Where the active unit is not known, the words of the arc may still state
 /// theirs: the blocks of a subprogram that is cloned for its callers do.
 fn length_unit(arc: &Arc, walk: &Walk) -> Unit {
     let inch = |value: &Expr| value.literal().is_some_and(|n| n.unit == Unit::Inch && !n.is_zero());

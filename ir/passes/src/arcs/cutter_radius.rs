@@ -1,10 +1,10 @@
 //! `cutter-radius`: by which radius a contour is compensated, in the words that the target has.
 //!
 //! A control takes the radius of an entry that the block names, that of the entry with the tool's
-//! number, or that of the edge (or entry) whose length is in force. One stands for another where the
+//! number, or that of the edge (or entry) whose length is active. One stands for another where the
 //! program itself shows that they are the same place of the tables; otherwise it is refused. How the
 //! tool goes onto the contour and leaves it is each control's own: between two of them it is taken to
-//! be the same, and told once.
+//! be the same, and reported once.
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::RADIUS;
@@ -44,9 +44,9 @@ pub(crate) const PASS: Pass = Pass {
 /// What the pass remembers from piece to piece of a program.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CutterRadiusState {
-    /// Whether entry and exit were told.
+    /// Whether entry and exit were reported.
     reported: bool,
-    /// Entries of the tables that were told.
+    /// Entries of the tables that were reported.
     entries: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! `expand-compensation`: writes the path of the tool's centre in place of a contour and the side on which
+//! `expand-compensation`: writes the tool centre path in place of a contour and the side on which
 //! the tool goes along it.
 //!
 //! The radius must be known: the program states a diameter, has put a radius into the table, or a profile
@@ -36,7 +36,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass::named(
     "expand-compensation",
-    "writes the path of the tool's centre for cutter radius compensation",
+    "writes the tool centre path for cutter radius compensation",
     Some(run),
 );
 
@@ -89,9 +89,9 @@ struct Expansion<'t> {
     one_meaning: bool,
     /// What F counts on arcs; `None` is not known here.
     arc_feed: Option<ArcFeed>,
-    /// Digits of F behind the point.
+    /// Digits of F after the point.
     feed_decimals: u8,
-    /// The F in force in the output, where it is that of an arc of the tool centre and not the source's.
+    /// The F active in the output, where it is that of an arc of the tool centre and not the source's.
     own_feed: Option<Num>,
 }
 
@@ -323,7 +323,7 @@ impl Expansion<'_> {
         Ok(())
     }
 
-    /// Puts a move on the contour in the place of its statement, behind the source's F and an arc before it, where there
+    /// Puts a move on the contour in the place of its statement, after the source's F and an arc before it, where there
     /// are such.
     fn put(
         &mut self,
@@ -364,7 +364,7 @@ impl Expansion<'_> {
         }
     }
 
-    /// The source's F, where the output has another one in force.
+    /// The source's F, where the output has another one active.
     fn source_feed(&mut self, walk: &Walk) -> Option<Op> {
         let own = self.own_feed.take();
         walk.at.feed.filter(|_| own.is_some()).map(|feed| Op::SetFeedRate(feed.into()))

@@ -1,7 +1,7 @@
-//! `expand-corners`: corners that the target has no word for are written as arcs and lines.
+//! `expand-corners`: corners that the target lacks are written as arcs and lines.
 //!
 //! The moves on both sides get shorter: the first ends where the corner begins, the second begins where it
-//! ends. Computed points are rounded to the target's digits. A corner that has to be written out and whose
+//! ends. Computed points are rounded to the target's digits. A corner that must be expanded and whose
 //! moves are not known from the program alone is refused, and so is one that has no next move.
 
 use crate::arcs::arc_form;
@@ -98,7 +98,7 @@ pub(crate) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags
 /// Which corners stay words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Keep {
-    /// What the target has a word for.
+    /// What the target supports.
     Sayable,
     /// None; their points keep all digits, because another pass works on them.
     None,
@@ -113,7 +113,7 @@ struct Corner {
     span: Span,
 }
 
-/// A move behind which a corner is.
+/// A move after which a corner is.
 struct Before {
     corner: Corner,
     /// Where it stands among those made.
@@ -127,7 +127,7 @@ struct Before {
     bent: bool,
 }
 
-/// The same for one piece of a body. What waits for its next move stays behind.
+/// The same for one piece of a body. What waits for its next move stays.
 pub(crate) fn expand_corners(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
@@ -230,7 +230,7 @@ impl Corners<'_> {
         made.push(stmt);
     }
 
-    /// A move with a corner before it, behind it or both.
+    /// A move with a corner before it, after it or both.
     fn passed(&mut self, stmt: &mut Stmt, walk: &mut Walk, made: &mut Rebuild) -> Result<(), Fault> {
         let bent = matches!(stmt.op.unwrapped(), Op::ArcFeed(_) | Op::ArcForm(_));
         let before = self.before.take();
@@ -330,7 +330,7 @@ impl Corners<'_> {
         })
     }
 
-    /// Shortens the move before the corner, and writes the corner behind it.
+    /// Shortens the move before the corner, and writes the corner after it.
     fn write(
         &mut self,
         before: &Before,
@@ -388,7 +388,7 @@ impl Corners<'_> {
         Centre::Point { words, from: CentreFrom::Start }
     }
 
-    /// Lets the move behind the corner begin where that ends.
+    /// Lets the move after the corner begin where that ends.
     fn shorten(&self, stmt: &mut Stmt, plane: Plane, inserted: &Inserted, walk: &Walk) -> Result<(), Fault> {
         let unit = walk.unit();
         let (first, second, _) = plane.axes();

@@ -116,7 +116,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     let mut arcs = vec![turn; turns as usize];
     if arc.to.get(normal).is_some() {
         if walk.waiting {
-            // The length is taken up on the way, by so much more or less of it.
+            // The length takes effect on the way, by so much more or less of it.
             return Err(Fault::lacks(ArcsLack::TurnsWithLength));
         }
         let levels = levels((arc, turns), walk, [first, second, normal])?;
@@ -124,7 +124,7 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
         for (arc, level) in arcs.iter_mut().zip(levels) {
             arc.to.set(normal, absolute(rounded(level, target.decimals_in(unit), unit)));
         }
-        // The end is said from zero: an increment would count from a rounded level.
+        // The end is stated from zero: an increment would count from a rounded level.
         if let Some(end) = walk.at.target(&arc.to)[normal as usize] {
             let same = rest
                 .to

@@ -27,7 +27,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "polar-words",
-    about: "says points by radius and angle in the target's form, or by coordinates",
+    about: "writes points by radius and angle in the target's form, or by coordinates",
     alone: Some(run),
     step: Some(Step {
         moment: Moment::Placing,
@@ -43,14 +43,14 @@ pub(crate) const PASS: Pass = Pass {
 
 /// Writes them by coordinates, as another pass has to write out what they belong to.
 fn in_coordinates(l: &mut Shared, p: &mut Piece) {
-    // Corners and frames are worked out from exact points.
+    // Corners and frames are computed from exact points.
     let exact = Target { decimals: EXACT - 1, ..l.target.clone() };
     let target = if p.needs(CORNER | FRAME) { &exact } else { &l.target };
     convert_polar_words(p.stmts, &mut p.start.clone(), l.states.state_mut(), target, false, p.diags);
     p.needs &= !POLAR;
 }
 
-/// Says them in the target's form, unless a pass behind looks into what they say.
+/// Says them in the target's form, unless a pass after looks into what they say.
 fn in_its_form(l: &mut Shared, p: &mut Piece) -> bool {
     let holes = l.states.ask(ExpandCyclesState::is_busy) || l.states.ask(TapsState::is_busy);
     if l.target.caps.moves.polar == PolarForm::None || p.needs(FRAME | EVERY | CORNER) || holes {
@@ -61,7 +61,7 @@ fn in_its_form(l: &mut Shared, p: &mut Piece) -> bool {
     true
 }
 
-/// Whether no hole was written out by a pass behind.
+/// Whether no later pass expanded a hole.
 fn holes_are_kept(piece: &Piece, before: &[Stmt], after: &[Stmt]) -> bool {
     let counts = |stmts: &[Stmt]| {
         let polar = stmts.iter().filter(|stmt| matches!(stmt.op, Op::Polar(_))).count();

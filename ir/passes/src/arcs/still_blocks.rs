@@ -45,7 +45,7 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct StillBlocksState {
     /// The source looks over such blocks.
     pub(crate) looked_over: bool,
-    /// Whether that was told.
+    /// Whether that was reported.
     reported: bool,
 }
 

@@ -1,16 +1,16 @@
-//! `control_forms`: decisions, loops and jumps in the forms that the target has.
+//! `control_forms`: branches, loops and jumps in the forms that the target has.
 //!
 //! A loop that counts, or that is repeated a computed number of times, becomes one with a condition and a counter: the
 //! counter is given its first value, then the end and the pace are worth what they are there, once, before the first
 //! turn; where the body may change what they are made of, they are kept in variables of their own. A loop that is
-//! tested behind its turns, one that stands in more others than the target can have, and one that is left from within
-//! become labels and jumps; so does a decision about blocks where the target decides about one statement. What the
+//! tested after its turns, one that stands in more others than the target can have, and one that is left from within
+//! become labels and jumps; so does a branch for blocks where the target decides about one statement. What the
 //! target has stays as it is, and so do blocks, their comments and their numbers.
 //!
-//! Functions that the target has no word for are worked out by decisions before all that (`worked_out`).
+//! Functions that the target lacks are computed by branches before all that (`worked_out`).
 //!
 //! What neither the target nor this can say stays too, and is refused as what it is (`computes`). Not here: names of
-//! variables (`variables`), and jumps made into loops and decisions (`structures`).
+//! variables (`variables`), and jumps made into loops and branches (`structures`).
 
 mod conditions;
 mod names;
@@ -32,7 +32,7 @@ use ncc_ir::source::Span;
 /// This pass.
 pub(crate) const PASS: Pass = Pass::parametric(
     "control-forms",
-    "says loops, branches and jumps in the target's forms",
+    "writes loops, branches and jumps in the target's forms",
     |_, _| true,
     |program, own, _| run(program, own.target),
 );
@@ -87,9 +87,9 @@ struct Loop {
     /// Another turn is begun while it holds; without, always.
     head: Option<Expr>,
     body: Vec<Stmt>,
-    /// What every turn ends with, however its body ends.
+    /// What every iteration ends with, however its body ends.
     tail: Vec<Stmt>,
-    /// Behind a turn, the loop is over when it holds.
+    /// After a turn, the loop is over when it holds.
     until: Option<Expr>,
 }
 
@@ -113,7 +113,7 @@ impl Forms<'_> {
     fn body(&mut self, body: Vec<Stmt>) -> Vec<Stmt> {
         let mut out: Vec<Stmt> = Vec::with_capacity(body.len());
         for mut stmt in body {
-            // What comes behind a decision that was made of its neighbour has a block of its own.
+            // What comes after a branch that was made of its neighbour has a block of its own.
             stmt.joined &= !std::mem::take(&mut self.split);
             match &mut stmt.op {
                 Op::Leave => self.leaves(stmt, &mut out, true),
@@ -164,7 +164,7 @@ impl Forms<'_> {
         }
     }
 
-    /// A variable that is given what a condition is worth, where a condition is no number.
+    /// A variable that is given the value of a condition, where a condition is no number.
     fn truth(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Assign(to, value) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
         let one = |n: i64| Stmt::new(stmt.span, Op::Assign(to.clone(), Expr::int(n)));
@@ -209,7 +209,7 @@ impl Forms<'_> {
             return out.push(stmt);
         }
         let times = Expr::int(std::mem::replace(&mut call.times, 1).into());
-        // A counter cannot be set in the block of a move that the call stood behind.
+        // A counter cannot be set in the block of a move that precedes the call.
         stmt.joined = false;
         let (span, number) = (stmt.span, stmt.number.take());
         let repeat = Control::Repeat { times, body: vec![stmt] };
@@ -313,7 +313,7 @@ impl Forms<'_> {
         out.extend(left);
     }
 
-    /// The body of a loop that stays one, of which every turn ends with `tail`; and what stands behind the loop.
+    /// The body of a loop that stays one, of which every iteration ends with `tail`; and what stands after the loop.
     fn turning(&mut self, body: Vec<Stmt>, span: Span, tail: &[Stmt]) -> (Vec<Stmt>, Option<Stmt>) {
         let jumps = self.has(ComputeFeature::Jump);
         let leave = match self.has(ComputeFeature::Leave) || !jumps {
@@ -529,7 +529,7 @@ fn decided(span: Span, condition: Expr, stmt: Stmt) -> Option<Stmt> {
     }
 }
 
-/// Whether a decision is about one jump or one assignment alone.
+/// Whether a branch is about one jump or one assignment alone.
 fn is_plain(control: &Control) -> bool {
     match control {
         Control::If { then, otherwise, .. } => single(then).is_some() && otherwise.is_empty(),
@@ -541,7 +541,7 @@ fn is_plain(control: &Control) -> bool {
     }
 }
 
-/// The only statement, of which a decision can be about it without blocks: a jump, or an assignment.
+/// The only statement, of which a branch can be about it without blocks: a jump, or an assignment.
 fn single(body: &[Stmt]) -> Option<&Stmt> {
     match body {
         [only] if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => {
@@ -551,7 +551,7 @@ fn single(body: &[Stmt]) -> Option<&Stmt> {
     }
 }
 
-/// Whether control never comes to the end of a body.
+/// Whether control never reaches the end of a body.
 fn ends_elsewhere(body: &[Stmt]) -> bool {
     body.last().is_some_and(|last| {
         let away = matches!(

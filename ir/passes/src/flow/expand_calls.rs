@@ -1,7 +1,7 @@
-//! `expand-calls`: subprograms are written out where they are called.
+//! `expand-calls`: subprograms are inlined.
 //!
-//! What a subprogram takes from its caller (motion or cycle in force, distance mode, plane, units)
-//! becomes what this caller has in force.
+//! What a subprogram takes from its caller (motion or cycle active, distance mode, plane, units)
+//! becomes what this caller has active.
 
 use ncc_ir::unsupported::CallUnsupported;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -75,10 +75,10 @@ fn some(program: &mut Program, walk: &mut Walk, names: &BTreeSet<Text>, diags: &
 
 struct Inliner<'a> {
     subs: &'a HashMap<&'a str, &'a Procedure>,
-    /// Those that are not written out.
+    /// Those that are not inlined.
     kept: &'a HashSet<&'a str>,
     stack: Vec<&'a str>,
-    /// Calls written out so far.
+    /// Number of calls inlined so far.
     calls: usize,
     walk: Walk,
     diags: &'a mut Vec<Diagnostic>,

@@ -1,4 +1,4 @@
-//! `expand-repeats`: repetitions are written out, or said in the form that the target has.
+//! `expand-repeats`: repetitions are unrolled, or written in the target's form.
 //!
 //! A repetition of a body with a known count, and one of blocks between labels, can each stand for
 //! the other. A target that has neither gets the blocks one after another; labels that only served
@@ -85,7 +85,7 @@ pub(crate) fn expand_repetitions(body: &mut Vec<Stmt>, target: &Target, diags: &
     }
 }
 
-/// Writes repetitions of blocks out, before subprograms are written out themselves; `but_main` leaves those of
+/// Unrolls repetitions of blocks, before subprograms are inlined; `but_main` leaves those of
 /// the main program.
 fn in_procedures(program: &mut Program, but_main: bool, diags: &mut Vec<Diagnostic>) {
     for procedure in program.procedures.iter_mut().skip(usize::from(but_main)) {

@@ -3,7 +3,7 @@
 //! Subprograms, loops, jumps and variables are gone afterwards; cycles and patterns are kept as they are executed.
 //! Numbers are rounded to the target's digits; what a rounded move is short of the program's point, the next incremental
 //! word of the axis makes good, so that nothing adds up. Comments stand wherever their blocks are executed. Refused are
-//! flow and variables in blocks that a switch can take out, and programs that do not come to an end.
+//! flow and variables in blocks that a switch can take out, and programs that do not end.
 
 use crate::pass::Pass;
 use std::collections::HashSet;
@@ -35,7 +35,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
     run_packing(program, target, entry, diags, &mut |_, _| {});
 }
 
-/// As [`run`]; `pack` may pack the statements that are there after each of them, and is told of the last one, so that few
+/// As [`run`]; `pack` may pack the statements that are there after each of them, and learns which is the last one, so that few
 /// are in memory at once.
 pub fn run_packing(
     program: &mut Program,
@@ -122,7 +122,7 @@ fn straight(
         };
         let mut stmt = stmt.clone();
         let before = std::mem::replace(&mut steps, runner.steps());
-        // Behind a step that has left nothing a block begins anew.
+        // After a step that has left nothing a block begins again.
         stmt.joined &= steps == before + 1 && !out.is_empty();
         stmt.number = stmt.number.filter(|number| numbered.insert(*number) && !stmt.joined);
         let over = matches!(stmt.op, Op::ProgramEnd | Op::BeginAgain | Op::Alarm(_)) && stmt.skip.is_none();
@@ -142,7 +142,7 @@ fn straight(
             inches = units == Units::Inch;
         }
         if matches!(stmt.op, Op::Label(_)) {
-            // What follows in its block begins that anew.
+            // What follows in its block begins that again.
             steps = 0;
             continue;
         }

@@ -47,7 +47,7 @@ pub(crate) const DEPTH: Pass = Pass::parametric(
 /// Writes the modes again where paths merge.
 pub(crate) const KNOWN_FACTS: Pass = Pass::parametric(
     "known-facts",
-    "states modes anew where ways of a program that computes join",
+    "states modes again where paths of a program that computes merge",
     |own, program| {
         let restates = own.target.restates && !own.keeps_words || computed_frames::behind_control(program);
         restates || own.source.blocks != own.target.blocks

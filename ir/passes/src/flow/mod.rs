@@ -1,7 +1,7 @@
 //! Calls, jumps, loops and repetitions.
 //!
 //! ```text
-//! REPEAT_BLOCKS("A", times 2)    expand-repeats    the blocks behind label A, twice more
+//! REPEAT_BLOCKS("A", times 2)    expand-repeats    the blocks after label A, twice more
 //! CALL("8000")                   expand-calls      the body of subprogram 8000, in its place
 //! ```
 //!

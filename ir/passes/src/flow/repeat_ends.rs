@@ -57,7 +57,7 @@ pub(crate) fn under_another_cycle(body: &[Stmt]) -> bool {
     })
 }
 
-/// Whether a cycle is called up, or ends, within blocks that are repeated.
+/// Whether a cycle is activated, or ends, within blocks that are repeated.
 pub(crate) fn changes_cycle(body: &[Stmt]) -> bool {
     body.iter().enumerate().any(|(at, stmt)| {
         let Op::RepeatBlocks(repeat) = &stmt.op else { return false };
@@ -89,7 +89,7 @@ pub(crate) fn name(body: &mut Vec<Stmt>, known: &BTreeSet<Text>) {
             at += 1;
             continue;
         };
-        // Where the blocks stand is told by the label at which they begin.
+        // Where the blocks stand is reported by the label at which they begin.
         let from = repeat.from.clone();
         let length = blocks.len();
         let is_first = |s: &Stmt| matches!(&s.op, Op::Label(label) if *label == from);

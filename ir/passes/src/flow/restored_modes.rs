@@ -1,11 +1,11 @@
-//! What a subprogram gives back ([`Attribute::GivesBack`]): behind each of its calls stand statements that put in force
+//! Modes that a subprogram restores ([`Attribute::GivesBack`]): after each of its calls stand statements that activate
 //! what was so before, as far as the subprogram changes it.
 //!
 //! A Sinumerik has them by the word SAVE (Job planning 06/2009, subprograms with SAVE; K2 08/2005, 2.4.10): modal G
-//! functions, the work offset in force if it is another one, and the programmable frame. Feeds, speeds, tools and
+//! functions, the active work offset if it is another one, and the programmable frame. Feeds, speeds, tools and
 //! values in tables stay as the subprogram leaves them.
 //!
-//! Refused, each with what it is: what was in force where it is not known; a frame of the caller's where the subprogram
+//! Refused, each with what it is: what was active where it is not known; a frame of the caller's where the subprogram
 //! has one; a subprogram that changes the unit, what feeds and speeds count, compensation or advice; a call that is
 //! made several times.
 //!
@@ -24,7 +24,7 @@ use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::unsupported::SaveUnsupported;
 
-/// Puts the statements behind the calls. `entry` is what holds where the statements of the main procedure begin; `word`
+/// Puts the statements after the calls. `entry` is what holds where the statements of the main procedure begin; `word`
 /// names the attribute in refusals.
 pub fn run(program: &mut Program, entry: &Tracker, word: &str, diags: &mut Vec<Diagnostic>) {
     let gives = |procedure: &&Procedure| procedure.attributes.contains(&Attribute::GivesBack);
@@ -83,7 +83,7 @@ struct Changes {
     feeds: Vec<FeedMode>,
     speeds: Vec<SpindleMode>,
     compensation: bool,
-    /// What is refused, whatever is in force.
+    /// What is refused, whatever is active.
     refused: Option<SaveUnsupported>,
 }
 
@@ -175,7 +175,7 @@ impl Changes {
         }
     }
 
-    /// The statements that put in force again what was so at a call; else what stands against them.
+    /// The statements that activate again what was so at a call; else what is against them.
     fn undone(&self, at: Option<&At>) -> Result<Vec<Op>, SaveUnsupported> {
         let mut ops = Vec::new();
         if let Some(refused) = self.refused {

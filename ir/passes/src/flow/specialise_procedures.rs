@@ -1,4 +1,4 @@
-//! `specialise-procedures`: what a subprogram takes from its callers becomes what they have in force.
+//! `specialise-procedures`: what a subprogram takes from its callers becomes what they have active.
 //!
 //! A subprogram whose callers agree keeps its name. One of which they make different things becomes
 //! several, one for each: the first keeps the name, the others get names of their own, in the order
@@ -19,7 +19,7 @@ use ncc_ir::track::Tracker;
 /// This pass. It comes before subprograms are inlined: what callers disagree about may be all that is missing.
 pub(crate) const PASS: Pass = Pass {
     name: "specialise-procedures",
-    about: "gives subprograms what their callers have in force, a copy for each that differs",
+    about: "specialises subprograms for the active modes of their callers, a copy for each that differs",
     alone: Some(run),
     step: None,
     program: &[ProgramStep {
@@ -76,7 +76,7 @@ fn specialise_subprograms(program: &mut Program, walk: &Walk, inherits: bool, di
     program.procedures = procedures;
 }
 
-/// A subprogram with what one caller has in force.
+/// A subprogram with what one caller has active.
 struct Made {
     /// Its name in the program.
     of: Text,
@@ -96,7 +96,7 @@ struct Settler<'p> {
 }
 
 impl Settler<'_> {
-    /// A body with what holds in it, and what holds behind it.
+    /// A body with what holds in it, and what holds after it.
     fn body(&mut self, body: &[Stmt], mut walk: Walk) -> (Vec<Stmt>, Tracker) {
         let mut out = Vec::with_capacity(body.len());
         let mut left: Option<Tracker> = None;
@@ -151,7 +151,7 @@ impl Settler<'_> {
         free && !self.stack.iter().any(|s| **s == *name)
     }
 
-    /// The subprogram that is called in the other's place, and what holds behind the call.
+    /// The subprogram that is called in the other's place, and what holds after the call.
     fn call(&mut self, name: &Text, times: u32, walk: &Walk) -> Option<(Text, Tracker)> {
         let subs = self.subs;
         let sub = subs.iter().find(|p| p.name == *name)?;
@@ -190,7 +190,7 @@ impl Settler<'_> {
     }
 }
 
-/// A name that nothing has: the next number, or the name with a number behind it.
+/// A name that nothing has: the next number, or the name with a number after it.
 pub(crate) fn free(names: &mut BTreeSet<Text>, name: &str) -> Text {
     let number = name.parse::<u32>().ok();
     let mut k = 1u32;

@@ -1,7 +1,7 @@
-//! `passed-labels`: labels that no jump names are left out, and facts are known behind them again.
+//! `passed-labels`: labels that no jump names are left out, and facts are known after them again.
 //!
 //! A reader that does not see its text's end takes every block with a number for one that may be jumped to. When it
-//! has seen it, what the text has said before such a block holds behind it too. At other labels, and behind all else
+//! has seen it, what the text has said before such a block holds after it too. At other labels, and after all else
 //! that leads another way, no more is known than the reader knew.
 //!
 //! Not here: names that blocks are repeated by.
@@ -45,7 +45,7 @@ fn names(body: &[Stmt], named: &mut HashSet<Text>) -> bool {
 fn leave_out(body: &mut Vec<Stmt>, named: &HashSet<Text>) -> bool {
     let before = body.len();
     let mut out: Vec<Stmt> = Vec::with_capacity(before);
-    // The block that stood behind the label has its number.
+    // The block that stood after the label has its number.
     let (mut number, mut left_out_one) = (None, false);
     for mut stmt in std::mem::take(body) {
         if matches!(&stmt.op, Op::Label(name) if !named.contains(name)) {
@@ -72,7 +72,7 @@ fn leave_out(body: &mut Vec<Stmt>, named: &HashSet<Text>) -> bool {
     any
 }
 
-/// Puts in what is said since the last place that can be come to from elsewhere.
+/// Puts in what is stated since the last place that is a jump target.
 fn join(body: &mut [Stmt]) {
     let mut at = Tracker::unknown();
     for stmt in body {

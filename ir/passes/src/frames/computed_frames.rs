@@ -1,14 +1,14 @@
-//! Frames of programs that compute: each statement says, in the target's own form, all that is in force behind it.
+//! Frames of programs that compute: each statement says, in the target's own form, all that is active after it.
 //!
-//! Which frame is in force where a block of a loop is executed, the run alone knows, so that none is worked into
-//! coordinates, and none is said by what has changed since the one before.
+//! Which frame is active where a block of a loop is executed, the run alone knows, so that none is worked into
+//! coordinates, and none is stated by what has changed since the one before.
 //!
-//! Where the target chains frames, a shift and a rotation are one chain: what is in force of the other one is known from
+//! Where the target chains frames, a shift and a rotation are one chain: what is active of the other one is known from
 //! the stretch of blocks at hand, and that nothing is turned where a stretch begins if none ends so (`Held`).
 //!
-//! Refused by name: a frame that the target has no form of its own for, a shift or a rotation beside another one that is
-//! not known there, a rotation about the place where the tool stands, steps that add up but for translations of one
-//! stretch of blocks, and a move behind a rotation that does not name both axes of its plane (controls do not agree about
+//! Refused: a frame that the target has no form of its own for, a shift or a rotation beside another one that is
+//! not known there, a rotation about the place where the tool is, steps that add up but for translations of one
+//! stretch of blocks, and a move after a rotation that does not name both axes of its plane (controls do not agree about
 //! it).
 
 mod chained;
@@ -35,7 +35,7 @@ use ncc_ir::source::Span;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "computed-frames",
-    about: "says all that is in force of frames behind each statement, where a program computes",
+    about: "states all active frames after each statement, where a program computes",
     alone: None,
     step: None,
     program: &[ProgramStep {
@@ -60,7 +60,7 @@ fn in_shared(shared: &mut Shared, kept: &mut KeptProgram) {
     shared.lacks &= !FRAME;
 }
 
-/// Whether a program has frames behind its first statement of control, or computed ones, so that every block has to say by itself from
+/// Whether a program has frames after its first statement of control, or computed ones, so that every block has to say by itself from
 /// where its words are measured.
 pub fn behind_control(program: &Program) -> bool {
     let mut used = Used::default();
@@ -70,11 +70,11 @@ pub fn behind_control(program: &Program) -> bool {
     used.behind
 }
 
-/// Says the frames of a program so, which has frames behind its first statement of control. `known` is what holds where
+/// Says the frames of a program so, which has frames after its first statement of control. `known` is what holds where
 /// stretches of its blocks begin.
 ///
 /// # Errors
-/// The first one that cannot be said, at its place.
+/// The first one that cannot be stated, at its place.
 fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<(), Diagnostic> {
     let mut used = Used::default();
     for (at, procedure) in program.procedures.iter().enumerate() {
@@ -104,7 +104,7 @@ fn is_frame(op: &Op) -> bool {
 /// The frames of a whole program.
 #[derive(Clone, Debug, Default)]
 struct Used {
-    /// Whether there are any behind the first statement of control, or computed ones before it.
+    /// Whether there are any after the first statement of control, or computed ones before it.
     behind: bool,
     /// Whether there is one that the target does not say as it stands.
     unsaid: bool,
@@ -115,9 +115,9 @@ struct Used {
     slots: Vec<FrameSlot>,
     /// Whether a chain is turned.
     turns: bool,
-    /// Whether a rotation that fills a slot may be in force where a stretch of blocks begins.
+    /// Whether a rotation that fills a slot may be active where a stretch of blocks begins.
     turned_between: bool,
-    /// Whether words are measured from where the tool stands anywhere.
+    /// Whether words are measured from where the tool is anywhere.
     increments: bool,
 }
 
@@ -194,7 +194,7 @@ fn slot_of(slot: &Slot) -> FrameSlot {
     }
 }
 
-/// What fills a slot is absolute only where the distance mode is: that is said before it, or known of all ways to it.
+/// What fills a slot is absolute only where the distance mode is: that is stated before it, or known of all ways to it.
 fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
     // Whether it is; nothing where a stretch of blocks begins.
     let mut said = None;
@@ -221,15 +221,15 @@ fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// `held` is what is in force where the body begins.
+/// `held` is what is active where the body begins.
 fn state_frames(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Result<(), Diagnostic> {
     if !body.iter().any(|stmt| is_frame(&stmt.op) || matches!(stmt.op, Op::Control(_))) {
         return Ok(());
     }
     let mut refused = None;
-    // Whether the frame before is a translation that has begun the chain anew, with nothing behind it.
+    // Whether the frame before is a translation that has begun the chain again, with nothing after it.
     let mut anew = false;
-    // The translation that this stretch has said anew, while it is the whole chain and worth what it was.
+    // The translation that this stretch has stated again, while it is the whole chain and worth what it was.
     let mut shift: Option<Shift> = None;
     rebuild(body, |mut stmt, made: &mut Rebuild| {
         if !is_frame(&stmt.op) {
@@ -272,7 +272,7 @@ fn state_frames(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) 
 /// By how much a chain of translations moves each axis.
 type Shift = [Option<Expr>; AXES];
 
-/// Whether a translation is the same behind a statement.
+/// Whether a translation is the same after a statement.
 fn stays(axes: &Shift, op: &Op) -> bool {
     match op {
         flow!() | Op::Declare(_) => false,
@@ -281,7 +281,7 @@ fn stays(axes: &Shift, op: &Op) -> bool {
     }
 }
 
-/// A translation that begins the chain anew, or none at all.
+/// A translation that begins the chain again, or none at all.
 fn translation(op: &Op) -> Option<Shift> {
     match op {
         Op::ClearFrame(FrameSlot::Chain) => Some([const { None }; AXES]),
@@ -293,7 +293,7 @@ fn translation(op: &Op) -> Option<Shift> {
     }
 }
 
-/// Has a translation that adds to another one begin the chain anew, with the sum of both.
+/// Has a translation that adds to another one begin the chain again, with the sum of both.
 fn add_to(before: &Shift, op: &mut Op) {
     if let Op::SetFrame(frame) = op
         && let FrameStep::Translate(axes) = &mut frame.step
@@ -346,7 +346,7 @@ fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, Co
     }
     let zero = |axis: usize| Expr::Num(Num::int(0, if axis < 3 { Unit::Mm } else { Unit::Degree }));
     let mut ops = Vec::new();
-    // A shift is said outside a rotation.
+    // A shift is stated outside a rotation.
     let to = |axes: &[Option<Expr>], ops: &mut Vec<Op>| {
         if used.turns {
             ops.push(Op::ClearFrame(FrameSlot::Rotation));
@@ -395,7 +395,7 @@ fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, Co
     Ok(ops)
 }
 
-/// The first move in a plane behind a rotation that begins or ends names both of its axes, absolutely.
+/// The first move in a plane after a rotation that begins or ends names both of its axes, absolutely.
 fn placed(body: &[Stmt]) -> Result<(), Diagnostic> {
     let mut open: Option<(Plane, &Stmt)> = None;
     for stmt in body {

@@ -20,7 +20,7 @@ const NOTHING: f64 = 1e-12;
 /// A place computed in another way may be off by this much, nanos.
 const NEAR: u64 = 2;
 
-/// What slots amount to, with the shift of the origin.
+/// What slots amount to, with the G92 shift.
 pub(crate) fn shifted(slots: &Frames) -> Chain {
     let by = slots.origin.map(Option::unwrap_or_default);
     Chain::by(by).then(&slots.chain())
@@ -53,7 +53,7 @@ pub(crate) fn as_chain(slots: &Frames, before: bool, unit: Unit) -> Option<Vec<O
 }
 
 /// The slots that amount to a chain, with places of so many digits; `None` if none do. A local shift
-/// that is in force `now` stays where it can.
+/// that is active `now` stays where it can.
 pub(crate) fn as_slots(chain: &Chain, now: &Frames, caps: &Caps, decimals: u8, unit: Unit) -> Option<Frames> {
     let sayable = |slots: &Frames| {
         let lengths = slots.local.iter().take(3).copied();
@@ -123,7 +123,7 @@ fn turned(m: &[[f64; 3]; 3], t: [Nanos; AXES], about: bool) -> Option<Frames> {
     let (f, s, _) = plane.axes();
     let (f, s) = (f as usize, s as usize);
     let odd = m[f][f] * m[s][s] - m[f][s] * m[s][f] < 0.0;
-    // Behind a mirror of the first axis, its column is turned round.
+    // After a mirror of the first axis, its column is turned round.
     let (cos, sin) = if odd { (-m[f][f], -m[s][f]) } else { (m[f][f], m[s][f]) };
     let angle = (sin.atan2(cos).to_degrees() * ONE as f64).round() as Nanos;
     let mut slots = Frames::NONE;

@@ -29,7 +29,7 @@ use pending::Pending;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "frame-increments",
-    about: "says incremental words behind a change of frame as both controls count them",
+    about: "writes incremental words after a change of frame as both controls count them",
     alone: None,
     step: Some(Step {
         moment: Moment::Arrival,
@@ -65,7 +65,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// Most rounds in which it is found out what subprograms leave behind; each adds an axis at least.
+/// Most rounds in which it is found out what subprograms leave; each adds an axis at least.
 const MOST_ROUNDS: usize = 64;
 
 const LINEAR: [bool; AXES] = [true, true, true, false, false, false];
@@ -99,7 +99,7 @@ impl FrameIncrementsState {
         FrameIncrementsState { from, to, same: alike(source) == alike(target), pending, over: false }
     }
 
-    /// Nothing is in front of the program: its caller has said all that was to be said.
+    /// Nothing is in front of the program: its caller has said all that was to be stated.
     pub fn stands_alone(&mut self) {
         self.pending = Pending::default();
     }
@@ -128,7 +128,7 @@ impl FrameIncrementsState {
         way.body(stmts, &mut walk);
     }
 
-    /// Whether any of these statements would be rewritten, or refused. `distance` is the mode in force before them.
+    /// Whether any of these statements would be rewritten, or refused. `distance` is the active mode before them.
     pub(crate) fn concerns(&self, stmts: &[Stmt], distance: Option<Distance>) -> bool {
         if !self.is_used() {
             return false;
@@ -247,7 +247,7 @@ struct Jumps {
     labels: HashMap<Text, Pending>,
     /// Where a loop is left, or begins its next turn.
     leaves: Pending,
-    /// Where the procedure goes back before its end.
+    /// Where the procedure returns before its end.
     returns: Pending,
     /// Whether any of them has become more.
     grown: bool,
@@ -267,7 +267,7 @@ impl Jumps {
     }
 }
 
-/// What may be pending behind a body, and where it jumps to, if `before` may be before it. `calls` gets what may be
+/// What may be pending after a body, and where it jumps to, if `before` may be before it. `calls` gets what may be
 /// where each subprogram is called.
 fn reach(
     body: &[Stmt],
@@ -313,7 +313,7 @@ fn pass(
     }
 }
 
-/// What may be pending before each turn of a structure, and behind it.
+/// What may be pending before each iteration of a structure, and after it.
 fn within_turns(
     control: &Control,
     own: &mut Pending,
@@ -335,7 +335,7 @@ fn within_turns(
     }
 }
 
-/// Whether a decision is about the code of a group that a variable was given: it puts back what was in force, as a rule,
+/// Whether a branch is about the code of a group that a variable was given: it restores what was active, as a rule,
 /// and where it does not, execution judges what follows.
 fn is_code(control: &Control) -> bool {
     computed_code(control).is_some()
@@ -364,7 +364,7 @@ fn is_absolute_move(op: &Op, pending: &Pending) -> bool {
     !to.axes.iter().flatten().any(|word| pending.may_be_relative(word))
 }
 
-/// Notes what a statement changes, and what it moves. `plane` is the one in force, if it is known.
+/// Notes what a statement changes, and what it moves. `plane` is the active one, if it is known.
 fn note(pending: &mut Pending, op: &Op, plane: Option<Plane>, skipped: bool) {
     match op {
         Op::StraightFeed(m) | Op::StraightTraverse(m) => return clear(pending, &m.to, skipped),
@@ -551,7 +551,7 @@ impl Way<'_> {
         }
     }
 
-    /// Whether it calls up the work offset that is in force.
+    /// Whether it activates the work offset that is active.
     fn same_offset(&self, op: &Op, walk: &Walk) -> bool {
         matches!(op, Op::SetOriginOffsets(number) if walk.at.modes.work_offset == Some(*number))
     }
@@ -578,7 +578,7 @@ impl Way<'_> {
             if !pending.is_relative(own) {
                 continue;
             }
-            // On the way to a point of the machine, no way is no word.
+            // On the way to a reference point, no way is no word.
             if is_return && !from && own.value.literal().is_some_and(|n| n.is_zero()) {
                 continue;
             }

@@ -1,11 +1,11 @@
 //! Cuts in machine coordinates, for controls that go there rapidly alone; and back.
 //!
-//! In a work offset, a place of the machine is that place less the offset in force and the one that counts in all of
+//! In a work offset, a place of the machine is that place less the active offset and the one that counts in all of
 //! them. A program can ask for both: they are data of the control, so that it does not matter how far it reads ahead
 //! of the moves. For a target that cuts in machine coordinates, and cannot be asked for the common offset, such words
 //! become those places again.
 //!
-//! Refused by name: a cut where a frame of the program may be in force, or the work offset or the unit is not known, and
+//! Refused: a cut where a frame of the program may be active, or the work offset or the unit is not known, and
 //! along axes whose offsets the target cannot be asked for. Not here: the tool's length, of which the cut is the
 //! target's own (`machine_moves`).
 
@@ -29,7 +29,7 @@ use ncc_ir::track::{Shifted, Tracker};
 /// This pass.
 pub(crate) const PASS: Pass = Pass::parametric(
     "machine-cuts",
-    "says cuts in machine coordinates by work offsets that the program reads",
+    "writes cuts in machine coordinates by work offsets that the program reads",
     |_, _| true,
     |program, own, found| read(program, &own.entry, own.caps, found),
 );
@@ -55,10 +55,10 @@ fn asks(target: &Computes, system: System) -> bool {
     target.system.contains(&system)
 }
 
-/// The words of a cut in machine coordinates as those of the work offset in force; with its number.
+/// The words of a cut in machine coordinates as those of the active work offset; with its number.
 ///
 /// # Errors
-/// Why that cannot be said.
+/// Why that cannot be stated.
 pub(crate) fn as_work(to: &Move, at: &Tracker, caps: &Caps) -> Result<(Move, u16), MachineLack> {
     let target = caps.flow.computes.as_deref().filter(|_| in_work(caps));
     let target = target.ok_or(MachineLack::Cut)?;
@@ -116,7 +116,7 @@ fn has_frame(at: &Tracker) -> bool {
     slots || chain || at.tilted || at.compensated || at.modes.no_origin_shift != Some(true)
 }
 
-/// Whether a rotation was in force before and the move leaves an axis of the plane out, of which it is not known since
+/// Whether a rotation was active before and the move leaves an axis of the plane out, of which it is not known since
 /// where it stands: controls do not agree about it.
 fn is_open_behind_a_rotation(to: &Point, at: &Tracker) -> bool {
     let Some(plane) = at.modes.plane.filter(|_| at.turned) else { return at.turned };
@@ -184,7 +184,7 @@ fn less(value: &Expr) -> Option<(Expr, System)> {
     }
 }
 
-/// Has words from which the offsets in force are taken off say the place of the machine, for a target that can cut there
+/// Has words from which the active offsets are taken off say the place of the machine, for a target that can cut there
 /// and cannot be asked for the common offset. `entry` is what holds where the program begins.
 pub fn read(program: &mut Program, entry: &Tracker, caps: &Caps, diags: &mut Vec<Diagnostic>) {
     let asked =
@@ -239,7 +239,7 @@ fn settle_cuts(body: &mut Vec<Stmt>, known: &Known, diags: &mut Vec<Diagnostic>)
     *body = out;
 }
 
-/// The words of a move as places of the machine, if each of them is such a place less what lies between, here.
+/// The words of a move as machine coordinates, if each of them is such a place less what lies between, here.
 fn in_machine(to: &Move, at: &Tracker, span: Span, diags: &mut Vec<Diagnostic>) -> Option<Move> {
     if to.to.is_empty() || has_frame(at) {
         return None;

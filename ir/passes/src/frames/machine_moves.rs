@@ -1,14 +1,14 @@
-//! `machine-moves`: moves in machine coordinates, and to points of the machine, in the target's form.
+//! `machine-moves`: moves in machine coordinates, and to reference points, in the target's form.
 //!
-//! Machine coordinates are measured with the tool's length on one control and without it on another. The
-//! same place is said by a move without a length, which is said anew before the next that needs it; or by
-//! the other form, where no length is in force. A move to the machine's zero is one in machine
-//! coordinates, by way of the point that it names. A cut, for a control that goes rapidly alone, is said in the work
-//! offset in force (`machine_cuts`), in which it is measured with the tool's length.
+//! One control measures machine coordinates with the tool length, another without it. The pass cancels the length
+//! offset for such a move, and activates it again before the next move that needs it. Where no length is active, it
+//! writes the other form. A return to machine zero becomes a move in machine coordinates, through its intermediate
+//! point. Where the target's machine coordinates allow rapid moves only, a cut is written in the active work offset
+//! (`machine_cuts`), which includes the tool length.
 //!
-//! Refused by name: a probing move of a kind that the target has not; a move that is measured with a length where the target's is not, unless there is
-//! none; other points of the machine without a word for them; and Z after a return to a point of the
-//! machine whose length nobody has said anew, where the target keeps it for certain.
+//! Refused: a probing move of a kind that the target lacks; a move measured with a length, where the target's is
+//! measured without, unless none is active; reference points that the target lacks; and Z after a reference point
+//! return without a new length offset, where the target keeps the length for certain.
 
 mod around;
 
@@ -65,22 +65,22 @@ pub(crate) const PASS: Pass = Pass {
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MachineMovesState {
-    /// The length that is in force in the source and was put off in the target.
+    /// The length that is active in the source and was put off in the target.
     put_off: Option<u32>,
     /// Words have cancelled it: the next Z takes it up.
     cancelled: bool,
-    /// A return to a point of the machine that may have left none of the length.
+    /// A return to a reference point that may have left none of the length.
     lost: Option<Span>,
     /// A move in machine coordinates comes next in this block, with the tool's length or without.
     machine: Option<Stmt>,
     /// A return by the intermediate point comes next in this block, in moves of its own.
     intermediate: Option<Stmt>,
-    /// A return to a point of the machine became a rapid move where the motion in force is the caller's.
+    /// A return to a reference point became a rapid move where the active motion is the caller's.
     motion_lost: bool,
 }
 
 impl MachineMovesState {
-    /// The refusal of a statement that moves Z by an increment, and takes up the length which words have cancelled.
+    /// The refusal of a statement that moves Z by an increment, and applies the length which words have cancelled.
     fn refuses_increment(&self, stmt: &Stmt, walk: &Walk) -> Option<Diagnostic> {
         let word = words_of(&stmt.op).and_then(|to| to.get(Axis::Z))?;
         let takes_up = self.put_off.is_some() && self.cancelled;
@@ -234,7 +234,7 @@ fn take(
     made.push(stmt);
 }
 
-/// Says the length anew that was put off, before a statement that needs it.
+/// Says the length again that was put off, before a statement that needs it.
 fn length_again(stmt: &mut Stmt, state: &mut MachineMovesState, made: &mut Rebuild) {
     let Some(entry) = state.put_off.take() else { return };
     let mut again = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(i64::from(entry))));
@@ -278,7 +278,7 @@ pub fn retract(stmts: &[Stmt]) -> Option<usize> {
     Some(if second == Some([true, true, false, false, false, false]) { 2 } else { 1 })
 }
 
-/// A cut in machine coordinates as one of the work offset in force, where it is measured with the tool's length.
+/// A cut in machine coordinates as one of the active work offset, where it is measured with the tool's length.
 fn cut(
     machine: Stmt,
     mut stmt: Stmt,
@@ -345,7 +345,7 @@ fn in_other_form(
     made.push(machine);
 }
 
-/// Puts the tool's length off, if one may be in force and a move of Z is measured without it.
+/// Puts the tool's length off, if one may be active and a move of Z is measured without it.
 fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut MachineMovesState, at: Span) -> bool {
     let off = with_z && in_force != Some(0) && state.put_off.is_none();
     if off {
@@ -357,7 +357,7 @@ fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut MachineMovesState, 
     off
 }
 
-/// The move to the intermediate point; what is left to be said is the rest of the way, in a block of its own.
+/// The move to the intermediate point; what is left to be stated is the rest of the way, in a block of its own.
 fn by_intermediate(
     detour: Stmt,
     to: &Move,

@@ -1,4 +1,4 @@
-//! Frames, work offsets, places of the machine, and rotary axes.
+//! Frames, work offsets, machine coordinates, and rotary axes.
 //!
 //! ```text
 //! SET_FRAME(rotate, XY, 30deg)        expand-frames    positions that are turned by 30 degrees

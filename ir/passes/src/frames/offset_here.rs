@@ -1,12 +1,12 @@
-//! A change of the work offset in force, at a known place, in the other of two forms: by the coordinates that the words
+//! A change of the active work offset, at a known place, in the other of two forms: by the coordinates that the words
 //! give to where the axes stand (LinuxCNC's `G10 L20`), and by the difference that a control adds to its offset.
 //!
 //! ```text
-//! G0 X10 / G10 L20 P1 X0       the offset in force goes 10 mm further along X
+//! G0 X10 / G10 L20 P1 X0       the active offset goes 10 mm further along X
 //! G0 X10 / G91 G10 L2 P1 X10   the same
 //! ```
 //!
-//! Not here: other offsets than the one in force, whose zero no program knows, and places under a frame, which are not
+//! Not here: other offsets than the active one, whose zero no program knows, and places under a frame, which are not
 //! executed.
 
 use crate::pass::{Moment, Pass, Step};
@@ -20,7 +20,7 @@ use ncc_ir::program::{Data, DataMode, Op, Stmt};
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "offset-here",
-    about: "says work offsets that are set to where the axes stand as the target does",
+    about: "writes work offsets that are set to where the axes stand as the target does",
     alone: None,
     step: Step::at(
         Moment::Arrival,

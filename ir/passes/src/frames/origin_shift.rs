@@ -1,4 +1,4 @@
-//! `origin-shift`: a control without a word that cancels a temporary shift of the origin is taken
+//! `origin-shift`: a control without a word that cancels a G92 shift is taken
 //! to start without one.
 //!
 //! Not here: a shift that the program has set itself, which `expand-frames` takes back before.
@@ -16,7 +16,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "origin-shift",
-    about: "takes a target that cannot cancel a shift of the origin to start without one",
+    about: "takes a target that cannot cancel a G92 shift to start without one",
     alone: Some(run),
     step: Step::at(
         Moment::Placing,

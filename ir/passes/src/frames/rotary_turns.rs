@@ -1,7 +1,7 @@
 //! Absolute words of rotary axes that controls do not turn alike: by half a turn or more, the number's way on one and
 //! the shortest way on another.
 //!
-//! Refused, unless both controls are known to turn them in one way. From where nobody knows, nothing is said.
+//! Refused, unless both controls are known to turn them in one way. From where nobody knows, nothing is stated.
 //!
 //! Not here: what each control does ([`ncc_exec`]).
 

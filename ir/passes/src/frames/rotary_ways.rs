@@ -1,7 +1,7 @@
-//! `rotary-ways`: which way round rotary axes go, for a target without words for it.
+//! `rotary-ways`: the direction in which rotary axes turn, for a target that has no such words.
 //!
 //! Where the axis is known to stand so that the way is the one along the numbers, and less than half a turn, a plain
-//! word says it. Another way, or one from where nobody knows, is refused: how a plain word goes round is each
+//! word says it. Another direction, or one from an unknown angle, is refused: how a plain word goes round is each
 //! machine's own.
 
 use crate::pass::{Moment, Pass, Step};
@@ -20,7 +20,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "rotary-ways",
-    about: "says by plain words which way round rotary axes go",
+    about: "writes the direction of rotary axes by plain words",
     alone: Some(run),
     step: Step::at(
         Moment::Placing,

@@ -1,10 +1,10 @@
-//! Where the spindle's end stands, asked of a target that tells of the tool's tip alone: along X and Y both are one, along
+//! Where the spindle's end stands, asked of a target that tells of the tool tip alone: along X and Y both are one, along
 //! Z they are the tool's length apart.
 //!
-//! Where frames of the program are in force, or the tool is beside its contour, the source's question has no answer
+//! Where frames of the program are active, or the tool is beside its contour, the source's question has no answer
 //! (execution refuses it); so what is put in its place is asked where both are in the same coordinates.
 //!
-//! Not here: targets that do not tell the length in force, for which it is refused by name.
+//! Not here: targets that do not tell the active length, for which it is refused.
 
 use crate::pass::Pass;
 use crate::values::variables::expressions;
@@ -16,7 +16,7 @@ use ncc_ir::program::Program;
 /// This pass.
 pub(crate) const PASS: Pass = Pass::parametric(
     "spindle-points",
-    "says places of the spindle that a program reads as the target has them",
+    "writes places of the spindle that a program reads as the target has them",
     |_, _| true,
     |program, own, _| run(program, own.tells),
 );

@@ -46,7 +46,7 @@ pub(crate) struct WorkOffsetState {
     /// The work offset that the target's own one stands for.
     pub(crate) only: Option<u16>,
     reported: bool,
-    /// The work offset in force, if the target cannot name it and nothing has moved in it, and where the
+    /// The active work offset, if the target cannot name it and nothing has moved in it, and where the
     /// program says it.
     idle: Option<(u16, Span)>,
     /// The next straight move is in machine coordinates.
@@ -66,7 +66,7 @@ impl WorkOffsetState {
         }
     }
 
-    /// Refuses the work offset in force where something depends on it.
+    /// Refuses the active work offset where something depends on it.
     fn refuse_if_used(&mut self, op: &Op, diags: &mut Vec<Diagnostic>) {
         if let Some((offset, span)) = self.idle.filter(|_| uses(op, &mut self.raw)) {
             self.idle = None;
@@ -75,7 +75,7 @@ impl WorkOffsetState {
     }
 }
 
-/// Whether something depends on the work offset in force. `raw` is whether the straight move that follows
+/// Whether something depends on the active work offset. `raw` is whether the straight move that follows
 /// is in machine coordinates.
 fn uses(op: &Op, raw: &mut bool) -> bool {
     match op {

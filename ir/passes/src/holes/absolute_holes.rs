@@ -83,7 +83,7 @@ fn has_other_words(op: &Op, in_force: Option<Distance>) -> bool {
     }
 }
 
-/// Whether a hole's words are measured otherwise than the planes of the cycle in force.
+/// Whether a hole's words are measured otherwise than the planes of the active cycle.
 fn is_placed_otherwise(op: &Op, walk: &Walk) -> bool {
     let (Op::Hole(m), Some(in_force)) = (op, &walk.at.cycle) else { return false };
     let measured = |word: &Coord| word.distance.known().or(walk.at.modes.distance);
@@ -118,7 +118,7 @@ pub(crate) fn alike(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnost
     }
 }
 
-/// The planes of a cycle that is called up, from program zero.
+/// The planes of a cycle that is activated, from program zero.
 fn start_absolute(op: &mut Op, walk: &Walk) -> Result<(), Fault> {
     let Op::StartCycle(cycle) = op else { return Ok(()) };
     let (Some(in_force), Some(plane)) = (&walk.at.cycle, walk.at.plane(cycle.plane)) else {
@@ -141,7 +141,7 @@ fn absolute_point(m: &mut Move, before: &Walk) -> Result<(), Fault> {
     })
 }
 
-/// The words of a hole, from where the tool stands.
+/// The words of a hole, from where the tool is.
 fn incremental_point(m: &mut Move, before: &Walk) -> Result<(), Fault> {
     Axis::ALL.into_iter().zip(&mut m.to.axes).try_for_each(|(axis, word)| {
         let Some(coord) = word.as_mut().filter(|coord| is_absolute(coord, before.at.modes.distance)) else {

@@ -1,8 +1,8 @@
 //! `approach`: the way to the first hole if the tool does not stand at the retract plane.
 //!
 //! Controls differ: some go to the plane first, others over the hole first, others the one from below
-//! and the other from above. Where the target's way is not the program's, the first leg is written as
-//! a rapid of its own, after which both ways are one. What cannot be mended so is left to
+//! and the other from above. Where the target's approach is not the program's, the first leg becomes a
+//! rapid move, after which both approaches are one. What cannot be mended so is left to
 //! `expand-cycles`.
 
 use crate::holes::sayable::{level, sayable};
@@ -35,7 +35,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
+/// Whether the cycle's way to every hole is surely this one, from the levels where the tool is.
 pub(crate) fn is_one_way(walk: &Walk, in_force: &ActiveCycle, way: Approach) -> bool {
     let cycle = &in_force.cycle;
     if length_decides(walk, cycle.approach, way) {
@@ -101,7 +101,7 @@ pub(crate) fn convert_approach(
     let in_force = walk.at.cycle.as_ref();
     let mut other_way = in_force.is_some_and(|in_force| in_force.cycle.approach != way);
     let by_height = matches!(way, Approach::RaiseFirst | Approach::ClearFirst);
-    // Whether a length was called up under a cycle, so that the way to its next hole depends on it.
+    // Whether a length was activated under a cycle, so that the way to its next hole depends on it.
     let mut another_length = false;
     while i < body.len() {
         walk.enter(body[i].skip);
@@ -180,7 +180,7 @@ fn first_leg(
     if is_one_way(walk, in_force, way) {
         return Some((None, None, other));
     }
-    // A rapid would end the cycle that is in force, and change a level to return to.
+    // A rapid would end the cycle that is active, and change a level to return to.
     let returns = cycle.return_level.known().or(walk.at.modes.return_level);
     // A stated plane is one and the same wherever the tool stood; the next hole is made from there.
     let one = in_force
@@ -231,7 +231,7 @@ fn first_leg(
     }
 }
 
-/// The first hole of the cycle called up at `i`, if nothing stands between that could change the way
+/// The first hole of the cycle activated at `i`, if nothing stands between that could change the way
 /// to it and it is skipped with the call or not at all. Of a pattern no position is given.
 fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, Option<&Point>)> {
     for (k, stmt) in body.iter().enumerate().skip(i + 1) {
@@ -248,7 +248,7 @@ fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, Option<&Point>)> {
     None
 }
 
-/// Whether the cycle called up at `i` surely ends before another is called up.
+/// Whether the cycle activated at `i` surely ends before another is activated.
 fn is_last(body: &[Stmt], i: usize) -> bool {
     for stmt in &body[i + 1..] {
         match stmt.op.unwrapped() {

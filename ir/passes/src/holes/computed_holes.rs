@@ -1,5 +1,5 @@
 //! Circles and lines of holes of which numbers are computed when the program runs become their positions, each as what
-//! it is computed from, for a target that has no words for them.
+//! it is computed from, for a target without them.
 //!
 //! A pattern stays as it is that is a grid or a list, a circle by its first hole, that does not say from program zero
 //! where it is, or that stands in a program with several planes: it is refused where it cannot be written.
@@ -20,7 +20,7 @@ use crate::support::write::rebuild;
 /// This pass.
 pub(crate) const PASS: Pass = Pass::parametric(
     "computed-holes",
-    "says circles and lines of holes whose sizes are computed by their positions",
+    "writes circles and lines of holes whose sizes are computed by their positions",
     |_, _| true,
     |program, own, found| run(program, own.caps, found),
 );
@@ -28,7 +28,7 @@ pub(crate) const PASS: Pass = Pass::parametric(
 /// Degrees of a quarter turn, in nanos.
 const QUARTER: Nanos = 90 * ONE;
 
-/// Says the patterns of a program that computes by their positions, where the target has no words for them.
+/// Says the patterns of a program that computes by their positions, where the target lacks them.
 pub fn run(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
     let mut planes = Vec::from_iter(program.assumed.plane);
     program.procedures.iter().for_each(|procedure| planes_of(&procedure.body, &mut planes));

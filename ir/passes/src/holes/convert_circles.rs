@@ -1,7 +1,7 @@
 //! `polar-circles` and `cartesian-circles`: the first hole of a circle is given by its radius and
 //! angle, or by its position.
 //!
-//! Only where the holes are the same to half a unit of the target's last digit; else a circle stays
+//! Only where the holes are the same to half the target's least increment; else a circle stays
 //! as it is.
 
 use crate::holes::expand_patterns;

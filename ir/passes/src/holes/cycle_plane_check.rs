@@ -47,14 +47,14 @@ fn drop_plane_checks(body: &mut Vec<Stmt>, alarm: i64, decimals: u8) {
     }
 }
 
-/// Whether a statement is the check of the cycle that is called up behind it in its block.
+/// Whether a statement is the check of the cycle that is activated after it in its block.
 fn is_made_by(check: &Stmt, rest: &[Stmt], alarm: i64, decimals: u8) -> bool {
     let Op::Control(control) = &check.op else { return false };
     let Control::If { condition, then, otherwise } = &**control else { return false };
     let [Stmt { op: Op::Alarm(given), .. }] = &then[..] else { return false };
     let number = given.number.as_ref().and_then(Expr::literal).and_then(Num::whole_number);
     let mut of_block = rest.iter().take_while(|stmt| stmt.joined && stmt.skip == check.skip);
-    // A rigid tap's speed is said before its call.
+    // A rigid tap's speed is stated before its call.
     let call = of_block.find(|stmt| !matches!(stmt.op, Op::SetSpindleSpeed(_)));
     let Some(Stmt { op: Op::StartCycle(cycle), .. }) = call else { return false };
     number == Some(alarm)
@@ -63,7 +63,7 @@ fn is_made_by(check: &Stmt, rest: &[Stmt], alarm: i64, decimals: u8) -> bool {
         && asks(cycle, condition, decimals)
 }
 
-/// Whether a condition is that of a cycle's planes: the plane of return below the reference plane or this below the
+/// Whether a condition is that of a cycle's planes: the return plane below the reference plane or this below the
 /// depth; of pecks besides the first one below the depth, or none.
 fn asks(cycle: &Cycle, condition: &Expr, decimals: u8) -> bool {
     let Some(back) = &cycle.return_plane else { return false };
@@ -76,7 +76,7 @@ fn asks(cycle: &Cycle, condition: &Expr, decimals: u8) -> bool {
     let asked = match &cycle.kind {
         CycleKind::DrillPeck { peck, .. } | CycleKind::DrillBreak { peck, .. } => {
             let Some(first) = first_depth(condition) else { return false };
-            // The peck is said by the depth of the first one, or that by the peck.
+            // The peck is stated by the depth of the first one, or that by the peck.
             let peck = peck.operand();
             let by = |a: &Expr, b: &Expr| same(&reference.minus(a), b);
             if !by(first, &peck) && !by(&peck, first) {
@@ -100,7 +100,7 @@ fn first_depth(condition: &Expr) -> Option<&Expr> {
     }
 }
 
-/// Whether a plane is said as another one and a number, which the target can state.
+/// Whether a plane is stated as another one and a number, which the target can state.
 fn sum_of(plane: &Coord, reference: &Coord, decimals: u8) -> bool {
     let few = |num: Num| num.trimmed().scale <= decimals;
     match (&plane.value, &reference.value) {

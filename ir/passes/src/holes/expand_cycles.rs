@@ -1,15 +1,15 @@
 //! `expand-cycles`: a canned cycle becomes its moves. This is the definition of what a cycle does.
 //!
 //! A hole, in the order of its moves:
-//! 1. to the position in the plane, at the level where the tool stands, then by rapid to the
+//! 1. to the position in the plane, at the level where the tool is, then by rapid to the
 //!    retract plane R (Fanuc 15i-M); if the tool stands below R and the cycle is
 //!    [`Approach::RaiseFirst`], up to R first (NIST RS274/NGC 3.8.1); if it is
 //!    [`Approach::RetractFirst`], to R first from above too; under [`Approach::ClearFirst`] from a hole
-//!    that was left no higher than R straight to the level of return above the next;
+//!    that was left no higher than R straight to the return level above the next;
 //! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
 //!    the clearance above the last depth, the last peck clipped at the bottom (without a clearance, by rapid to
 //!    where the tool is left and down at feed); dwell, if there is one;
-//! 3. out by rapid to R or to the level where the tool stood when the cycle was called up, which
+//! 3. out by rapid to R or to the level where the tool stood when the cycle was activated, which
 //!    under [`Approach::RaiseFirst`] is not below R (NIST RS274/NGC 3.5.20); [`CycleKind::Bore`]
 //!    feeds to R first.
 //!
@@ -72,7 +72,7 @@ pub(crate) const PASS: Pass = Pass {
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ExpandCyclesState {
-    /// The cycle in force is being expanded.
+    /// The active cycle is being expanded.
     expanding: bool,
     /// Feed that is stated again at every hole.
     feed: Option<Expr>,
@@ -121,7 +121,7 @@ pub(crate) fn expand_cycles(
             Op::Polar(polar) if state.expanding && matches!(polar.op, Op::Hole(_) | Op::Position(_)) => {
                 match polar_places::by_coordinates(polar, walk, target) {
                     Ok(Op::Hole(m) | Op::Position(m)) => {
-                        // The pole and its words are those behind the point.
+                        // The pole and its words are those after the point.
                         let mut behind = walk.at.clone();
                         behind.apply(&stmt.op);
                         (walk.at.pole, walk.at.pole_lost) = (behind.pole, behind.pole_lost);
@@ -179,7 +179,7 @@ pub(crate) fn expand_cycles(
                     return made.leave_out(stmt);
                 }
                 if stmt.skip.is_some() {
-                    // Which feed is in force depends on a switch: the last one said goes on.
+                    // Which feed is active depends on a switch: the last one said goes on.
                     state.pay(&mut stmt, made);
                     state.feed = None;
                 }
@@ -198,7 +198,7 @@ pub(crate) fn expand_cycles(
     });
 }
 
-/// Whether a statement ends a cycle that is in force, or goes where this pass does not follow.
+/// Whether a statement ends a cycle that is active, or goes where this pass does not follow.
 fn ends(op: &Op) -> bool {
     matches!(op, Op::Position(_) | Op::ProgramEnd | Op::BeginAgain | moves!() | flow!())
 }
@@ -214,7 +214,7 @@ impl ExpandCyclesState {
         }
     }
 
-    /// A cycle that is called up: told and expanded from here on, if the target cannot say it.
+    /// A cycle that is activated: told and expanded from here on, if the target cannot say it.
     fn start(
         &mut self,
         mut stmt: Stmt,
@@ -227,7 +227,7 @@ impl ExpandCyclesState {
         let [kept, doubt] = in_force_before(walk).map(|is| is && !self.expanding);
         walk.step(&stmt);
         let must = match &walk.at.cycle {
-            // Cycles called up one after another share the initial level.
+            // Cycles activated one after another share the initial level.
             Some(_) if self.expanding => true,
             Some(now) => must_expand(walk, now, kept || doubt, target, stmt.span, diags),
             None => false,
@@ -296,7 +296,7 @@ impl ExpandCyclesState {
         };
         // Most holes are four moves, and a feed.
         let mut moves = Vec::with_capacity(6 * holes.len());
-        // Behind the first hole the tool is followed apart from the walk, which goes by the statement.
+        // After the first hole the tool is followed apart from the walk, which goes by the statement.
         let mut apart: Option<Walk> = None;
         let last = holes.len().saturating_sub(1);
         for (at, to) in holes.into_iter().enumerate() {
@@ -327,7 +327,7 @@ impl ExpandCyclesState {
             self.pay(&mut stmt, made);
         }
         if bores_out && let Some(feed) = &self.feed {
-            // The way out has left another feed in force than the cycle does.
+            // The way out has left another feed active than the cycle does.
             self.owed = Some(Owed { feed: feed.clone(), skip: stmt.skip, span: stmt.span });
         }
         made.replace(stmt, moves);
@@ -370,7 +370,7 @@ fn reported(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Whether a cycle is in force, and whether one may be.
+/// Whether a cycle is active, and whether one may be.
 fn in_force_before(walk: &Walk) -> [bool; 2] {
     [walk.at.cycle.is_some(), walk.at.cycle_in_doubt]
 }
@@ -481,7 +481,7 @@ pub(crate) fn hole(
     // 2. The hole.
     let stated = feed.is_some();
     if !stated && bores_out(&cycle.kind) {
-        // Nothing says to which feed to go back.
+        // Nothing says to which feed to return.
         return Err(Fault::lacks(HolesLack::BoringFeedOut));
     }
     if let Some(feed) = feed {

@@ -20,7 +20,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "expand-patterns",
-    about: "says patterns of holes in the target's form, or as positions",
+    about: "writes patterns of holes in the target's form, or as positions",
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
@@ -34,7 +34,7 @@ pub(crate) const PASS: Pass = Pass {
 /// This pass.
 pub(crate) const REFORM: Pass = Pass {
     name: "reform-patterns",
-    about: "says what is left of patterns in the target's form",
+    about: "writes what is left of patterns in the target's form",
     alone: None,
     step: Step::at(
         Moment::Wording,

@@ -1,4 +1,4 @@
-//! `feed-with-cycle`: a feed that is said right before a cycle is said by the cycle.
+//! `feed-with-cycle`: a feed that is stated right before a cycle is stated by the cycle.
 //!
 //! A cycle states its feed again at every hole, so that the machine does the same. Only where
 //! nothing but remarks stands between, under the same block skip, and the cycle says no feed itself.
@@ -43,7 +43,7 @@ fn join_feed(body: &mut Vec<Stmt>) {
     });
 }
 
-/// Whether the first statement is a feed that the cycle called up next can say.
+/// Whether the first statement is a feed that the cycle activated next can say.
 fn is_taken(stmts: &[Stmt]) -> bool {
     let Some((first, rest)) = stmts.split_first() else { return false };
     let Op::SetFeedRate(_) = &first.op else { return false };

@@ -1,9 +1,9 @@
 //! A pattern in the form in which a target says it: a circle's first hole by radius and angle or by
-//! a position, a line as a grid of one row, a start that is stated or where the tool stands.
+//! a position, a line as a grid of one row, a start that is stated or where the tool is.
 //!
-//! A form is taken only if its holes are the pattern's to half a unit of the target's last digit, in
-//! the same order. Where a control chooses the order by where the tool stands, that is only where
-//! the tool stands at the first hole.
+//! A form is taken only if its holes are the pattern's to half the target's least increment, in
+//! the same order. Where a control chooses the order by where the tool is, that is only where the tool is
+//! at the first hole.
 
 use crate::support::walk::Walk;
 use crate::support::write::{at, is_absolute, rounded};
@@ -54,7 +54,7 @@ pub(crate) fn fit(walk: &Walk, pattern: &Pattern, plane: Plane, target: &Target)
     here.forms(pattern, &places).into_iter().find(same).map(|form| vec![form])
 }
 
-/// Whether the target has words for a pattern that is computed when the program runs, wherever it stands.
+/// Whether the target supports a pattern that is computed when the program runs, wherever it stands.
 pub(crate) fn says_computed(pattern: &Pattern, plane: Plane, caps: &Caps) -> bool {
     let (first, second, _) = plane.axes();
     let walk = Walk::new(Tracker::unknown());
@@ -68,7 +68,7 @@ impl Here<'_> {
         self.axes.map(|axis| self.walk.at.position[axis as usize])
     }
 
-    /// Whether the target has words for this form as it stands.
+    /// Whether the target supports this form as it stands.
     fn says(&self, pattern: &Pattern) -> bool {
         let caps = self.caps;
         let starts = |start: &Option<[Coord; 2]>| match start {
@@ -273,7 +273,7 @@ impl Here<'_> {
         };
         let mut forms = Vec::new();
         for first in [first.clone(), other] {
-            // About where the tool stands, if it can be said so: that needs no words.
+            // About where the tool is, if it can be said so: that needs no words.
             for centre in self.starts(said, centre).into_iter().rev() {
                 forms.push(Pattern::Circle { centre, first: first.clone(), step: step.clone(), count });
             }

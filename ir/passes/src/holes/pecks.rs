@@ -23,8 +23,8 @@ use ncc_ir::track::ActiveCycle;
 /// Most pecks of one hole; more is a slip of the pen.
 const MAX_PECKS: i64 = 100_000;
 
-/// Whether a control that returns to where the tool stood before the block, and not before the series, comes to the
-/// same level.
+/// Whether a control that returns to where the tool stood before the block, and not before the series, gives the same
+/// level.
 pub(super) fn level_is_here(walk: &Walk, in_force: &ActiveCycle, target: &Target) -> bool {
     let cycle = &in_force.cycle;
     let retract = cycle.return_level.known().or(walk.at.modes.return_level) == Some(ReturnLevel::Retract);

@@ -1,8 +1,8 @@
 //! `return-plane`: where a cycle leaves the tool, by a stated plane or by a level.
 //!
 //! A control with levels goes to the retract plane, or to where the tool stood when the cycle was
-//! called up. A plane that is neither of them is reached by writing the first hole out: after it the
-//! tool stands at the plane, and the cycle that is called up then goes back to there. A stated plane
+//! activated. A plane that is neither of them is reached by writing the first hole out: after it the
+//! tool stands at the plane, and the cycle that is activated then returns to there. A stated plane
 //! below the retract plane is not made: controls that state planes refuse it. What cannot be mended
 //! so is left to `expand-cycles`.
 
@@ -27,7 +27,7 @@ use ncc_ir::track::{ActiveCycle, Tracker};
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "return-plane",
-    about: "says where cycles leave the tool by planes or by levels",
+    about: "states the return of cycles by planes or by levels",
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
@@ -50,7 +50,7 @@ pub(crate) fn convert_return_plane(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
-    // Holes of a cycle that was called up before stay as they are.
+    // Holes of a cycle that was activated before stay as they are.
     if !body.iter().any(|stmt| matches!(stmt.op, Op::StartCycle(_))) {
         return;
     }
@@ -81,7 +81,7 @@ fn by_planes(body: &mut [Stmt], walk: &mut Walk) {
     }
 }
 
-/// Whether the cycle that has just been called up surely ends before the return level is another.
+/// Whether the cycle that has just been activated surely ends before the return level is another.
 fn keeps_level(after: &[Stmt]) -> bool {
     let ends = |s: &&Stmt| {
         matches!(s.op, Op::EndCycle | Op::ProgramEnd | Op::BeginAgain | moves!()) && s.skip.is_none()
@@ -109,13 +109,13 @@ fn plane_of(walk: &Walk, cycle: &Cycle, to: ReturnLevel) -> Option<Coord> {
 enum Level {
     /// It is one of the target's levels.
     Is(ReturnLevel),
-    /// It becomes the initial level behind the first hole.
+    /// It becomes the initial level after the first hole.
     BehindFirst(Box<Split>),
     /// Neither.
     No,
 }
 
-/// A cycle of which the first hole is written out.
+/// A cycle of which the first hole is expanded.
 struct Split {
     /// Place of the statement that makes it.
     hole: usize,
@@ -177,7 +177,7 @@ fn by_levels(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut
     });
 }
 
-/// The walk stands behind the call.
+/// The walk stands after the call.
 fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target) -> Level {
     let Some(in_force) = &walk.at.cycle else { return Level::No };
     let Some(plane) = &cycle.return_plane else { return Level::No };
@@ -195,7 +195,7 @@ fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target
         return Level::No;
     }
     let not_below = in_force.initial.zip(in_force.retract).is_some_and(|(initial, r)| initial >= r);
-    // By which length a level is measured that is found before another one is taken up, is left open.
+    // By which length a level is measured that is found before another one takes effect, is left open.
     if same(in_force.initial) && not_below && !walk.waiting && !changes_level(&body[i + 1..]) {
         return Level::Is(ReturnLevel::Initial);
     }
@@ -205,7 +205,7 @@ fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target
     }
 }
 
-/// Writes the first hole of the cycle called up at `i` out, if others follow.
+/// Writes the first hole of the cycle activated at `i` out, if others follow.
 fn behind_first(
     body: &[Stmt],
     i: usize,
@@ -254,7 +254,7 @@ fn behind_first(
     Some(Split { hole, moves, cycle: new, others })
 }
 
-/// The statement that makes the first hole of the cycle called up at `i`, if nothing stands between
+/// The statement that makes the first hole of the cycle activated at `i`, if nothing stands between
 /// that could change what it does.
 fn first_hole(body: &[Stmt], i: usize, states_feed: bool) -> Option<usize> {
     if body[i].skip.is_some() {
@@ -272,7 +272,7 @@ fn first_hole(body: &[Stmt], i: usize, states_feed: bool) -> Option<usize> {
     None
 }
 
-/// Whether the cycle in force may make a hole in what follows.
+/// Whether the active cycle may make a hole in what follows.
 fn makes_more(body: &[Stmt]) -> bool {
     let makes = |s: &&Stmt| {
         matches!(
@@ -284,12 +284,12 @@ fn makes_more(body: &[Stmt]) -> bool {
     body.iter().find(|s| makes(s) || over(s)).is_none_or(|s| makes(&s))
 }
 
-/// Whether a statement ends the cycle in force.
+/// Whether a statement ends the active cycle.
 fn ends(stmt: &Stmt) -> bool {
     matches!(stmt.op.unwrapped(), Op::EndCycle | Op::ProgramEnd | Op::BeginAgain | moves!())
 }
 
-/// Whether another length or work offset comes before the cycle that has just been called up surely ends: by which
+/// Whether another length or work offset comes before the cycle that has just been activated surely ends: by which
 /// of them a level is measured that was found before, no source tells.
 fn changes_level(after: &[Stmt]) -> bool {
     let over = |s: &&Stmt| ends(s) && s.skip.is_none();
@@ -299,8 +299,8 @@ fn changes_level(after: &[Stmt]) -> bool {
     after.iter().find(|s| other(s) || over(s)).is_some_and(|s| other(&s))
 }
 
-/// Whether no further cycle, called up before this one is ended, counts from the level at which the
-/// tool stood when the first was called up; and the end is in sight.
+/// Whether no further cycle, activated before this one is ended, counts from the level at which the
+/// tool stood when the first was activated; and the end is in sight.
 fn level_is_free(body: &[Stmt]) -> bool {
     for stmt in body {
         match &stmt.op {
@@ -320,7 +320,7 @@ fn level_is_free(body: &[Stmt]) -> bool {
 }
 
 /// Whether a cycle that the target cannot say becomes sayable by this pass, with nothing known but
-/// what the program says; for a decision before the passes run.
+/// what the program says; for a branch before the passes run.
 pub(crate) fn converts_all(body: &[Stmt], walk: &Walk, target: &Target) -> bool {
     let (mut trial, mut diags) = (body.to_vec(), Vec::new());
     convert_return_plane(&mut trial, &mut walk.clone(), target, &mut diags);

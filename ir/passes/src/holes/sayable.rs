@@ -12,7 +12,7 @@ use ncc_ir::program::Coord;
 use ncc_ir::program::cycle::{Clearance, Cycle, CycleKind};
 use ncc_ir::source::Span;
 
-/// Whether the target has words for a cycle, whatever the tool does before it.
+/// Whether the target supports a cycle, whatever the tool does before it.
 pub(crate) fn sayable(
     walk: &Walk,
     cycle: &Cycle,

@@ -17,7 +17,7 @@ use ncc_ir::program::{Op, Point, Stmt};
 
 /// The moves of a hole but the one in the plane; `true` marks those that stand in the block of the one before.
 pub(super) struct Series {
-    /// The level where the tool stands before it.
+    /// The level where the tool is before it.
     pub(super) from: Nanos,
     pub(super) moves: Vec<(bool, Op)>,
     /// Before which of them the move in the plane comes.

@@ -3,7 +3,7 @@
 //!
 //! A tap that is left by rapid goes to a target whose own cycle goes on at feed as one call a hole, left at
 //! the retract plane. So does a rigid tap that dwells at the retract plane, where the target's cycle does not: the dwell
-//! follows the call. Refused are taps for a target that has no moves in step with the spindle, shifts that are computed
+//! follows the call. Refused are taps for a target that has no spindle-synchronised moves, shifts that are computed
 //! or whose direction is a parameter that nobody has stated, and a spindle that shall turn on as before
 //! where it is not known how it turned.
 
@@ -82,7 +82,7 @@ fn turn_it(to: Spindle) -> (bool, Op) {
     (false, op)
 }
 
-/// A move of a tap in step with the spindle.
+/// A move of a tap synchronised with the spindle.
 fn in_step(tap: &Tap, to: Point, turn: Turn) -> Op {
     Op::SynchronisedFeed(Box::new(Synchronised {
         to,
@@ -134,7 +134,7 @@ impl Driven<'_> {
         }
     }
 
-    /// A tap by moves in step with the spindle.
+    /// A tap by spindle-synchronised moves.
     fn tap(self, tap: &Tap, moves: &mut Vec<(bool, Op)>) -> Result<(), Fault> {
         let threads = self.target.caps.moves.threads;
         let says = if tap.chuck { threads.chuck } else { threads.turned || threads.back };
@@ -240,7 +240,7 @@ impl Driven<'_> {
 }
 
 /// The cycle with which a target taps one hole over which the tool stands at the retract plane, to leave it
-/// there: where its own cycle would go on at feed to the level of return, or has no such level.
+/// there: where its own cycle would go on at feed to the return level, or has no such level.
 fn own_tap(
     in_force: &ActiveCycle,
     kind: &CycleKind,

@@ -1,7 +1,7 @@
 //! `state-clearance`: what one control leaves to a parameter of a cycle, another states.
 //!
-//! The parameter's value is taken for granted, and told. Where it is not known the cycle stays as it
-//! is, for another pass to refuse. It is stated in the unit of length in force.
+//! The parameter's value is assumed and reported. Where it is not known the cycle stays as it
+//! is, for another pass to refuse. It is stated in the unit of length active.
 
 use crate::pass::{Moment, Pass, Step};
 use crate::support::needs::CYCLE;
@@ -69,7 +69,7 @@ pub(crate) fn state_clearance(
     }
 }
 
-/// A value in millimetres as it is stated where this unit is in force.
+/// A value in millimetres as it is stated where this unit is active.
 fn in_unit(value: Num, units: Option<Units>, target: &Target) -> Num {
     match (units, value.nanos(false)) {
         (Some(Units::Inch), Some(nanos)) => rounded(nanos, target.decimals_in(Unit::Inch), Unit::Inch),
@@ -77,7 +77,7 @@ fn in_unit(value: Num, units: Option<Units>, target: &Target) -> Num {
     }
 }
 
-/// What is told of a parameter that was taken for granted.
+/// What is reported of a parameter that was assumed.
 fn reported(is_peck: bool, value: Num) -> Fault {
     let length = (value.nanos(false).unwrap_or(0) as f64 / 1e9).to_string().into();
     let fact = match is_peck {

@@ -1,7 +1,7 @@
 //! Programs that compute, brought within a target's capabilities.
 //!
 //! Between two statements of control the blocks follow one another as in any program, and are brought within the
-//! target's capabilities by the same passes; behind each nothing is known. What a pass would have to change that is
+//! target's capabilities by the same passes; after each nothing is known. What a pass would have to change that is
 //! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
 
 use crate::arcs::compensated_modes::CompensatedModesState;
@@ -31,7 +31,7 @@ use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
 impl Legaliser {
-    /// What holds behind what has come so far.
+    /// What holds after what has come so far.
     pub fn entry(&self) -> &Tracker {
         &self.shared.walk.at
     }
@@ -104,7 +104,7 @@ impl Legaliser {
         }
     }
 
-    /// The feed that has to be said again before a statement of control.
+    /// The feed that has to be stated again before a statement of control.
     fn feed_before(&mut self, control: &Stmt, behind: &[Stmt]) -> Option<Result<Stmt, Diagnostic>> {
         let Shared { states, walk, target, .. } = &mut self.shared;
         feed_unit::before_control(states.state_mut(), &walk.at, target, control, behind)
@@ -135,7 +135,7 @@ impl Legaliser {
     }
 }
 
-/// Whether positions rely on a cycle, or a motion, that is in force where control comes from.
+/// Whether positions rely on a cycle, or a motion, that is active where control comes from.
 fn has_positions(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match &stmt.op {
         Op::Position(_) => true,
@@ -144,8 +144,8 @@ fn has_positions(body: &[Stmt]) -> bool {
     })
 }
 
-/// Whether where cycles leave the tool is said nowhere but for cycles that are called up behind it, before any hole.
-/// With `bare`, holes stand under cycles that other stretches have called up.
+/// Whether where cycles leave the tool is stated nowhere but for cycles that are activated after it, before any hole.
+/// With `bare`, holes stand under cycles that other stretches have activated.
 fn levels_with_cycles(body: &[Stmt], bare: bool) -> bool {
     let mut blocks = body.iter().enumerate().filter(|(_, stmt)| matches!(stmt.op, Op::SetReturnLevel(_)));
     let with = blocks.all(|(at, _)| {
@@ -161,9 +161,9 @@ fn levels_with_cycles(body: &[Stmt], bare: bool) -> bool {
     })
 }
 
-/// The same statement. A hole may be written out with the same computed words, on the way over it. A cycle may go to its
-/// holes in the target's way, where both ways were found to be one, and may state a parameter's value; with `levels`,
-/// it may say its plane of return, which no position changes, or the level that this plane is.
+/// The same statement. A hole may be expanded with the same computed words, on the way over it. A cycle may go to its
+/// holes by the target's approach, where both approaches were found to be one, and may state a parameter's value; with `levels`,
+/// it may say its return plane, which no position changes, or the level that this plane is.
 fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
     let (was, is) = match (was, is) {
         (Op::StartCycle(was), Op::StartCycle(is)) => (was, is),
@@ -181,7 +181,7 @@ fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
     same == **is
 }
 
-/// A cycle with the other's way to its holes, and, with `levels`, with a tap driven as there: the same thread, said by
+/// A cycle with the other's approach to its holes, and, with `levels`, with a tap driven as there: the same thread, said by
 /// a feed or a pitch, after which the spindle turns as the cycle leaves it or as the next block says.
 fn driven_as(was: &Cycle, is: &Cycle, levels: bool) -> Cycle {
     let mut same = Cycle { approach: is.approach, ..was.clone() };
@@ -203,9 +203,9 @@ fn is_written(pitch: &Pitch) -> bool {
     }
 }
 
-/// Whether a statement is of a cycle of which holes are written out: it moves by computed words that are all the
-/// cycle's, says its feed, or, with `levels`, calls it up for a hole of which the rest is written out, or for those
-/// behind it.
+/// Whether a statement is of a cycle of which holes are expanded: it moves by computed words that are all the
+/// cycle's, says its feed, or, with `levels`, activates it for a hole of which the rest is expanded, or for those
+/// after it.
 fn is_of(cycle: &Cycle, op: &Op, levels: bool) -> bool {
     let to = match op {
         Op::StraightTraverse(to) | Op::StraightFeed(to) => &to.to,
@@ -233,7 +233,7 @@ fn computed_words(words: &Point) -> impl Iterator<Item = (usize, &Coord)> {
     words.filter_map(|(axis, word)| Some((axis, word.as_ref().filter(|w| w.value.literal().is_none())?)))
 }
 
-/// What is not known of a program that computes, and would be if it were executed, is told as that.
+/// What is not known of a program that computes, and would be if it were executed, is reported as that.
 fn only_the_run_knows(found: &mut Diagnostic) {
     let what = match &found.fault {
         Fault::PositionUnknown { axis } => RunTimeWord::PositionUnknown { axis: *axis },
@@ -253,10 +253,10 @@ struct Region<'l> {
     fresh: &'l Legaliser,
     known: &'l Known,
     inherits: bool,
-    /// Whether a cycle's plane of return is one for all its positions.
+    /// Whether a cycle's return plane is one for all its positions.
     levels: bool,
     diags: &'l mut Vec<Diagnostic>,
-    /// What has been taken for granted of the origin's shift.
+    /// What has been assumed of the origin's shift.
     shift: OriginShiftState,
 }
 
@@ -281,7 +281,7 @@ impl Region<'_> {
         *body = out;
     }
 
-    /// Blocks without control; `next` is the statement of control behind them, and the rest of the body.
+    /// Blocks without control; `next` is the statement of control after them, and the rest of the body.
     fn stretch(
         &mut self,
         stmts: &mut Vec<Stmt>,
@@ -332,11 +332,11 @@ impl Region<'_> {
 
     /// The place of a statement that a pass has changed though it is computed, or others rely on it.
     fn relied_on(&self, before: &[Stmt], after: &[Stmt]) -> Option<Span> {
-        // A cut that is said in a work offset is the same, less the offsets.
+        // A cut that is stated in a work offset is the same, less the offsets.
         let (before, after) = [before, after].map(without_offsets).into();
         let relies = |stmt: &&Stmt| {
             let cycle = matches!(stmt.op, drilling!() | Op::EndCycle | Op::Position(_));
-            // How corners are taken may be said with less, which is told; nothing relies on it.
+            // How corners are taken may be stated with less, which is reported; nothing relies on it.
             let corners = matches!(stmt.op, Op::SetMotionControlMode(_));
             arguments::computed(&stmt.op) && !corners
                 || matches!(stmt.op, Op::Assign(..))

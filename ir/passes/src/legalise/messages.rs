@@ -18,8 +18,8 @@ pub(crate) const OUTPUT: Pass =
 pub(crate) const VALUES: Pass =
     Pass::named("leave-out-values", "leaves out of messages the values that the target cannot show", None);
 
-/// A message that is a comment from here on, by what stands behind it: where the program stops before another one takes its
-/// place, the operator is told something to do.
+/// A message that is a comment from here on, by what stands after it: where the program stops before another one takes its
+/// place, the message asks the operator for an action.
 fn lost(behind: &[Stmt]) -> Fault {
     if stops_first(behind) == Some(true) { Fault::MessageDropped } else { Fault::MessageAsComment }
 }
@@ -92,7 +92,7 @@ fn output(stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
     }
 }
 
-/// What is taken for granted of text for a device of another control, and what is refused: `opened` is whether it must be
+/// What is assumed of text for a device of another control, and what is refused: `opened` is whether it must be
 /// opened there.
 pub fn output_elsewhere(program: &Program, opened: bool) -> Vec<Diagnostic> {
     let (mut opens, mut line, mut value) = (false, None, None);

@@ -1,4 +1,4 @@
-//! What the legaliser is told of the two controls before it starts.
+//! What the legaliser knows of the two controls before it starts.
 
 use crate::arcs::compensated_modes::CompensatedModesState;
 use crate::arcs::still_blocks::StillBlocksState;
@@ -19,7 +19,7 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::geometry::arc_solver::ArcRule;
 
 impl Legaliser {
-    /// The value of the source control's lift of chip breaking, for cycles that must be written out.
+    /// The value of the source control's lift of chip breaking, for cycles that must be expanded.
     pub fn set_break_lift(&mut self, lift: Option<Num>) {
         self.shared.target.break_lift = lift;
     }
@@ -51,7 +51,7 @@ impl Legaliser {
         (self.shared.target.edge_entries, self.shared.target.further_edges) = (first, further);
     }
 
-    /// The tool that is in the spindle before the program begins, as the user states it.
+    /// The tool in the spindle before the program begins, as the user states it.
     pub fn hold_tool(&mut self, tool: u32) {
         let tool = Some(i64::from(tool));
         (self.shared.walk.at.tool, self.shared.walk.at.selected) = (tool, tool);
@@ -91,7 +91,7 @@ impl Legaliser {
     }
 
     /// Sets the side effects of codes on the source's control. The passes compare them with the target's.
-    /// `by_hand`: its operator changes tools, and sets Z anew for each.
+    /// `by_hand`: its operator changes tools, and sets Z again for each.
     pub fn set_source_behaviours(&mut self, source: Behaviours, by_hand: bool) {
         let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
         let caps = &self.shared.target.caps;

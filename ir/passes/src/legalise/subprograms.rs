@@ -1,8 +1,7 @@
-//! Subprograms, brought within a target's capabilities: as they are, with what their callers have in force, or written
-//! out where they are called.
+//! Legalises subprograms: keeps them, with the modes active in their callers, or inlines them.
 //!
-//! What can stay a subprogram does: those alone are written out that belong to a cycle of a caller which the target
-//! says in another way, or that cannot be said by themselves.
+//! Inlined are only subprograms that belong to a cycle of a caller which the target writes differently, and those
+//! that the target cannot write by themselves.
 
 use crate::arcs::arc_form::ArcFormState;
 use crate::arcs::compensated_modes::CompensatedModesState;
@@ -43,7 +42,7 @@ impl Legaliser {
         self.shared.walk.assume(&assumed);
         let frames =
             self.shared.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.shared.target.caps);
-        // Where the frames can be said, subprograms stay what they are.
+        // Where the frames can be stated, subprograms stay what they are.
         let apart = frames && !expand_frames::shifts_origin_in_calls(rest, &self.shared.target.caps);
         if apart && rest.procedures.len() > 1 && self.shared.lacks & CALL == 0 {
             let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
@@ -95,8 +94,8 @@ impl Legaliser {
         self.run_whole(rest, ways[first], diags);
     }
 
-    /// Subprograms get what their callers have in force, and those alone are written out that take a cycle from
-    /// them, or cannot be said. Tells whether that is done, and nothing else is left that cannot be said.
+    /// Subprograms get the modes active in their callers, and and only those are inlined that take a cycle from
+    /// them, or cannot be stated. Tells whether that is done, and nothing else is left that cannot be stated.
     fn write_out_some(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) -> bool {
         let (mut given, mut reported) = (rest.clone(), Vec::new());
         self.on_program(ProgramMoment::Calls, &mut given, Subprograms::Specialise, &mut reported);
@@ -169,7 +168,7 @@ impl Legaliser {
         }
     }
 
-    /// Refuses subprograms that leave a cycle in force to their callers, where the target's cannot.
+    /// Refuses subprograms that leave an active cycle to their callers, where the target's cannot.
     pub(super) fn refuse_cycles_left(&self, program: &Program, diags: &mut Vec<Diagnostic>) {
         if !self.shared.target.caps.holes.end_with_call {
             return;
@@ -211,8 +210,8 @@ impl Legaliser {
         self.shared.states.state_mut::<FeedTimeState>().enter();
     }
 
-    /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
-    /// is known only where they are written out.
+    /// Whether blocks that are executed again may belong to a cycle that is expanded, or lack what
+    /// is known only where they are inlined.
     fn repeats_in_the_way(&self, program: &Program) -> bool {
         if self.shared.lacks == 0
             || !self.shared.target.caps.flow.repeat_blocks

@@ -13,7 +13,7 @@ pub(super) fn refusal(data: &Data, at: &Tracker, caps: &Caps) -> Option<TablesLa
         {
             Some(TablesLack::Value)
         }
-        // Where another entry is surely in force, nothing of it can stay or change.
+        // Where another entry is surely active, nothing of it can stay or change.
         Data::Tool { entry, which, kept: true, .. }
             if which.is_offset()
                 && !caps.tools.data_kept

@@ -1,6 +1,6 @@
 //! `absolute` and `incremental`: words of moves, arcs and holes are measured in one way.
 //!
-//! An axis whose place is not known is refused by name. Planes of cycles and places of patterns stay
+//! An axis whose place is not known is refused. Planes of cycles and places of patterns stay
 //! as they are measured; machine coordinates too.
 
 use crate::pass::Pass;

@@ -205,7 +205,7 @@ impl Converter<'_> {
         Ok(())
     }
 
-    /// A number in the unit it is written in now, whichever is in force.
+    /// A number in the unit it is written in now, whichever is active.
     fn known(&self, num: Num) -> Result<Num, Fault> {
         match (num.unit, self.before.at.modes.units) {
             (Unit::Entry, Some(Units::Mm)) => Ok(Num { unit: Unit::Mm, ..num }),

@@ -1,13 +1,13 @@
 //! `drop-redundant`: statements that change nothing are left out.
 //!
-//! That is: a setting that the program itself has put in force before (units, distance mode, plane,
-//! feed mode, return level, work offset), a feed or speed that is in force, the end of a cycle where
-//! a move has ended it, a rapid to where the tool stands, and words of straight moves for axes that
+//! That is: a setting that the program itself has activated before (units, distance mode, plane,
+//! feed mode, return level, work offset), a feed or speed that is active, the end of a cycle where
+//! a move has ended it, a rapid to where the tool is, and words of straight moves for axes that
 //! stand there already.
 //!
 //! Left alone: blocks that may be skipped, and whatever may differ because of them; remarks, labels,
 //! numbers of blocks that stay; spindle, coolant and tools, which an operator may have switched at a
-//! stop; words that a waiting length offset needs. What was only taken for granted at the start counts
+//! stop; words that a waiting length offset needs. What was only assumed at the start counts
 //! as unsaid.
 
 use crate::fold::fold_cycles::feed;
@@ -67,7 +67,7 @@ pub(crate) fn drop_statements(body: &mut Vec<Stmt>, walk: &mut Walk) {
     });
 }
 
-/// Whether a setting is in force already.
+/// Whether a setting is active already.
 fn is_in_force(at: &Tracker, op: &Op) -> bool {
     let modes = &at.modes;
     match op {
@@ -117,7 +117,7 @@ fn shorten(walk: &Walk, stmt: &mut Stmt) {
     }
 }
 
-/// Speed in force, as far as the program says it.
+/// Speed active, as far as the program says it.
 fn speed_after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
     let now = match &stmt.op {
         Op::SetSpindleSpeed(speed) => speed.literal().map(Num::trimmed),

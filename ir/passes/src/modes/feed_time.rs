@@ -8,9 +8,9 @@
 //! X20.                      G94 X20 F100
 //! ```
 //!
-//! A target without a feed by time gets the feed that takes the same time by its own way of counting.
+//! A target without an inverse-time feed gets the feed that takes the same time by its own way of counting.
 //!
-//! An arc by time: `G93 G02 X20. I10. F2.` goes at F times the radius where F counts radii, and in a half minute where it
+//! An inverse-time arc: `G93 G02 X20. I10. F2.` goes at F times the radius where F counts radii, and in a half minute where it
 //! counts time alone. F is divided or multiplied by the arc's angle.
 //!
 //! Not here: how long they take, which is execution's.
@@ -35,7 +35,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "feed-time",
-    about: "says by their time moves whose feed the target counts otherwise",
+    about: "writes moves in inverse time whose feed the target counts otherwise",
     alone: Some(run),
     step: Some(Step {
         moment: Moment::Arrival,
@@ -75,11 +75,11 @@ pub(crate) struct FeedTimeState {
     by_time: Option<FeedMode>,
     /// Whether the source has said that mode again since, so that F alone is missing.
     mode_said: bool,
-    /// F of the source, which its unit and its mode need not take away where they are said again.
+    /// F of the source, which its unit and its mode need not take away where they are stated again.
     feed: Option<Num>,
-    /// The tool's tip is controlled.
+    /// The tool tip is controlled.
     tip: bool,
-    /// Whether it was told that moves are written by time.
+    /// Whether inverse-time output was reported.
     reported: bool,
     /// Control comes from elsewhere before the next statement.
     enters: bool,
@@ -134,7 +134,7 @@ impl FeedTimeState {
     }
 }
 
-/// What was in force before a statement.
+/// What was active before a statement.
 struct Before {
     modes: Modes,
     feed: Option<Num>,
@@ -358,7 +358,7 @@ fn by_time(per_minute: f64, target: &Target) -> Result<Num, FeedsLack> {
     }
 }
 
-/// Restates F of an arc by time, which stands before it in its block.
+/// Restates the inverse-time F of an arc, which stands before it in its block.
 fn arc_by_time(arc: &Arc, at: &Tracker, target: &Target, made: &mut Rebuild) -> Result<(), FeedsLack> {
     let unknown = FeedsLack::ArcTimeStartUnknown;
     if !arc.turns.is_none() {

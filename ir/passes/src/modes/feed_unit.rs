@@ -1,9 +1,9 @@
-//! `feed-unit`: feeds are written in the unit of length in force.
+//! `feed-unit`: feeds are written in the unit of length active.
 //!
-//! Likewise a feed is said again before the first cut after a change of units, where it is not known that both controls
-//! take the feed before for the same then (`F100.`, then `G20`: 100 mm or 100 in a minute), and behind a code of what the
+//! Likewise a feed is stated again before the first cut after a change of units, where it is not known that both controls
+//! take the feed before for the same then (`F100.`, then `G20`: 100 mm or 100 in a minute), and after a code of what the
 //! feed counts, for targets on which such a code ends the feed even where it counts that already. Refused is a feed that
-//! would have to be said again and is not known.
+//! would have to be stated again and is not known.
 //!
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
@@ -34,7 +34,7 @@ fn follows(l: &Shared) -> bool {
 /// A pass.
 pub(crate) const AGAIN: Pass = Pass {
     name: "feed-again",
-    about: "says a feed again where the target forgets it with a mode",
+    about: "writes a feed again where the target forgets it with a mode",
     alone: None,
     step: Some(Step {
         moment: Moment::Arrival,
@@ -73,7 +73,7 @@ pub(crate) const AGAIN: Pass = Pass {
 /// A pass.
 pub(crate) const PASS: Pass = Pass {
     name: "feed-unit",
-    about: "writes feeds in the unit of length in force",
+    about: "writes feeds in the active unit of length",
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
@@ -84,7 +84,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// Whether feeds are said again behind a change of units: it is not known what the target makes of them, or it makes
+/// Whether feeds are stated again after a change of units: it is not known what the target makes of them, or it makes
 /// something else of them than the source.
 pub(crate) fn says_again(target: &Target) -> bool {
     let fact = Behaviour::FeedAtUnits;
@@ -93,18 +93,18 @@ pub(crate) fn says_again(target: &Target) -> bool {
     target.caps.modes.feed_again || target.other_control && open || own.get(fact) != other.get(fact)
 }
 
-/// Feed in force, and whether the units have changed since it was said, or a code has ended it.
+/// Feed active, and whether the units have changed since it was stated, or a code has ended it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FeedUnitState {
     /// The feed of the source, in the unit in which its number counts now.
     feed: Option<Num>,
     /// What it was before the units changed, if that made it another.
     before: Option<Num>,
-    /// Whether it counts by time.
+    /// Whether it is inverse time.
     by_time: bool,
     stale: bool,
     ended: bool,
-    /// The units have changed, and which feed is in force is not known: the caller or the iteration before has set it.
+    /// The units have changed, and which feed is active is not known: the caller or the iteration before has set it.
     lost: bool,
     /// Control comes from elsewhere before the next statement.
     enters: bool,
@@ -122,7 +122,7 @@ impl FeedUnitState {
         FeedUnitState { feed: at.feed, by_time, lost: at.stale_feed, ..FeedUnitState::default() }
     }
 
-    /// Whether a feed waits to be said again.
+    /// Whether a feed waits to be stated again.
     pub(crate) fn is_busy(&self) -> bool {
         self.stale || self.ended || self.lost
     }
@@ -142,7 +142,7 @@ impl FeedUnitState {
         (self.stale, self.ended, self.lost, self.before) = (false, false, false, None);
     }
 
-    /// The units change; `lost`: a feed that is not known may be in force.
+    /// The units change; `lost`: a feed that is not known may be active.
     fn units(&mut self, units: Units, known: Option<Units>, lost: bool, target: &Target) {
         if known == Some(units) || self.by_time {
             return;
@@ -164,7 +164,7 @@ impl FeedUnitState {
     }
 }
 
-/// Whether a statement takes up the feed in force.
+/// Whether a statement applies the active feed.
 fn cuts(op: &Op) -> bool {
     match op {
         Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
@@ -174,7 +174,7 @@ fn cuts(op: &Op) -> bool {
     }
 }
 
-/// What is said between blocks that end the feed and a structure, which is looked at by itself: the feed again, where the
+/// What is stated between blocks that end the feed and a structure, which is looked at by itself: the feed again, where the
 /// structure or what follows it takes it up.
 pub(crate) fn before_control(
     state: &mut FeedUnitState,
@@ -195,7 +195,7 @@ pub(crate) fn before_control(
     Some(Ok(Stmt::new(control.span, Op::SetFeedRate(feed.into()))))
 }
 
-/// Whether statements may take up the feed in force before they say one.
+/// Whether statements may apply the active feed before they say one.
 fn cuts_first(body: &[Stmt]) -> bool {
     let mut before = body.iter().take_while(|stmt| {
         stmt.skip.is_some()
@@ -209,7 +209,7 @@ fn cuts_first(body: &[Stmt]) -> bool {
     })
 }
 
-/// Says feeds again after a change of units, and behind codes that end them.
+/// Says feeds again after a change of units, and after codes that end them.
 pub(crate) fn again(
     body: &mut Vec<Stmt>,
     walk: &mut Walk,
@@ -255,7 +255,7 @@ pub(crate) fn again(
             let mut said = Stmt::new(stmt.span, Op::SetFeedRate(feed.into()));
             (said.number, said.skip, said.joined) = (stmt.number.take(), stmt.skip, stmt.joined);
             stmt.joined = true;
-            // In a block that may be skipped it is said for that block alone.
+            // In a block that may be skipped it is stated for that block alone.
             let skipped = stmt.skip.is_some();
             (state.stale, state.ended) = (state.stale && skipped, state.ended && skipped);
             made.push(said);
@@ -284,7 +284,7 @@ pub(crate) fn again(
     });
 }
 
-/// Writes them in the unit in force.
+/// Writes them in the active unit.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         convert_feed_unit(body, &mut walk.clone(), target);

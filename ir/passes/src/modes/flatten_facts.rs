@@ -104,7 +104,7 @@ fn name_all(to: &mut Point, walk: &Walk) -> Result<(), Fault> {
                     word.distance = Fact::Known(ncc_ir::canon::Distance::Absolute);
                 }
             }
-            // Its length would be taken up by the word.
+            // Its length would take effect by the word.
             Some(_) if axis == Axis::Z && word.is_none() && walk.waiting => {}
             Some(nanos) => *word = Some(absolute(rounded_literal(nanos, unit_of(axis, walk.unit())))),
             None if word.is_some() => {

@@ -1,6 +1,6 @@
 //! What a target does at once where other controls wait, and what it takes away where they keep it: a length
 //! that counts as soon as it is read, so that the tool stands at another Z; a motion that is over with the
-//! cycle behind it. And what every control leaves open: a level from where the tool stood before the first Z,
+//! cycle after it. And what every control leaves open: a level from where the tool stood before the first Z,
 //! by which length it is measured.
 //!
 //! It changes nothing. What depends on either is refused where the source says it.
@@ -42,11 +42,11 @@ pub(crate) const PASS: Pass = Pass {
 /// What is remembered from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ImmediateEffectsState {
-    /// Another length is in force, and no absolute Z has been named since.
+    /// Another length is active, and no absolute Z has been named since.
     length: bool,
     /// The target's first blocks say no length, and no absolute Z has been named since.
     start: bool,
-    /// A cycle is over, and no motion has been said since.
+    /// A cycle is over, and no motion has been stated since.
     motion: bool,
 }
 
@@ -62,7 +62,7 @@ impl ImmediateEffectsState {
         self.length || self.start || self.motion
     }
 
-    /// The end of a subprogram, which returns if nothing else is said.
+    /// The end of a subprogram, which returns if nothing else is stated.
     pub(crate) fn end_of_sub(&mut self, body: &[Stmt], diags: &mut Vec<Diagnostic>) {
         let ends = |s: &&Stmt| matches!(s.op, Op::ProgramEnd | Op::BeginAgain) && s.skip.is_none();
         if let Some(last) = body.last().filter(|s| self.length && !ends(s)) {
@@ -190,13 +190,13 @@ fn goes(
     state.motion = false;
     let first = to.get(Axis::Z).filter(|_| state.start && stmt.skip.is_none());
     if first.is_some_and(|word| word.distance == Fact::Known(Distance::Incremental)) {
-        // The target's first blocks say nothing of a length then: it is taken for granted on both sides.
+        // The target's first blocks say nothing of a length then: it is assumed on both sides.
         (state.length, state.start) = (false, false);
     }
     names(to, stmt, walk, state, diags);
 }
 
-/// Axis words: an absolute Z settles where the tool stands, and another one depends on it.
+/// Axis words: an absolute Z settles where the tool is, and another one depends on it.
 fn names(
     to: &Point,
     stmt: &Stmt,

@@ -1,4 +1,4 @@
-//! What is in force: units, distances, feeds, path control, and what codes do besides their name.
+//! What is active: units, distances, feeds, path control, and what codes do besides their name.
 //!
 //! ```text
 //! STRAIGHT_FEED(X inc 1mm), in a block of absolute words    one-distance    STRAIGHT_FEED(X 11mm)

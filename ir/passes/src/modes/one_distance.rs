@@ -63,7 +63,7 @@ pub(crate) fn unify_distance(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec
     }
 }
 
-/// Whether a statement may mix, whatever is in force.
+/// Whether a statement may mix, whatever is active.
 pub(crate) fn may_mix(op: &Op) -> bool {
     words(op).is_some_and(|to| is_mixed(to, None))
 }

@@ -1,6 +1,6 @@
-//! `one-move`: what is said for one move stands in that move's block.
+//! `one-move`: what is stated for one move stands in that move's block.
 //!
-//! An exact stop of one move, the corner behind one, and the feed of a move that is given by its time, hold
+//! An exact stop of one move, the corner after one, and the feed of a move that is given by its time, hold
 //! for the move that comes next. A control whose programs are blocks takes them from the block of the move alone: in a
 //! block of their own they say nothing, or are an error.
 //!
@@ -22,7 +22,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "one-move",
-    about: "puts an exact stop of one move, and its feed by time, into the block of the move",
+    about: "puts an exact stop of one move, and its inverse-time feed, into the block of the move",
     alone: Some(run),
     step: Step::to_the_end(
         Moment::Wording,
@@ -106,7 +106,7 @@ pub(crate) fn split_moves(body: &mut Vec<Stmt>, state: &mut OneMoveState) {
         let place = match stmt.op.unwrapped() {
             Op::SetFeedMode(mode) => {
                 state.by_time = *mode == FeedMode::InverseTime;
-                // A feed for which no move has come counts in the mode it was said in.
+                // A feed for which no move has come counts in the mode it was stated in.
                 if let Some(feed) = state.held[2].take() {
                     made.push(apart(feed));
                 }

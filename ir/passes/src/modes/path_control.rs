@@ -111,7 +111,7 @@ pub(crate) fn convert_path_control(
             }
             Op::ExactStop if !caps.moves.exact_stop && caps.says_path(PathMode::ExactStop) => {
                 match &state.said {
-                    // What is computed may be something else behind it.
+                    // What is computed may be something else after it.
                     Some(control)
                         if !arguments::computed(&Op::SetMotionControlMode(Box::new(control.clone()))) =>
                     {

@@ -55,7 +55,7 @@ use way_up::WayUp;
 /// This pass.
 pub(crate) const PASS: Pass = Pass::named(
     "side-effects",
-    "says in words what codes of the source's control do besides their names",
+    "writes in words what codes of the source's control do besides their names",
     None,
 );
 
@@ -84,11 +84,11 @@ pub struct SideEffects {
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
-    /// Shifts that may be in force.
+    /// Shifts that may be active.
     shifts: Vec<FrameSlot>,
-    /// What calls up the length in force; `None` is none.
+    /// What activates the active length; `None` is none.
     length: Option<Op>,
-    /// Whether the length in force is known.
+    /// Whether the active length is known.
     length_known: bool,
     /// What the length needs before the next move of Z.
     length_next: Option<LengthNext>,
@@ -130,11 +130,11 @@ pub struct SideEffects {
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
 #[derive(Clone, Debug)]
 enum LengthNext {
-    /// To be said, by this operation.
+    /// To be stated, by this operation.
     Say(Op),
     /// To be asked of the source's control.
     Ask(Behaviour, Span),
-    /// To be said, and it is not known which it is.
+    /// To be stated, and it is not known which it is.
     Lost(Span),
 }
 

@@ -1,7 +1,7 @@
 //! Words that say by themselves from where they count, in programs that compute.
 //!
-//! A target whose distance mode holds for whole blocks says them by a mode of its own, which stays in force. That does no
-//! harm where every word behind it says its own; a word that counts as the mode of the source does, wherever that was
+//! A target whose distance mode holds for whole blocks says them by a mode of its own, which stays active. That does no
+//! harm where every word after it says its own; a word that counts as the mode of the source does, wherever that was
 //! set, would get the other one.
 
 use std::collections::BTreeSet;

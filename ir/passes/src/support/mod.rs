@@ -1,7 +1,7 @@
 //! What passes share: walking a body, known facts, needs, writing.
 //!
 //! ```text
-//! Walk         where the tool stands, and what is in force, statement by statement
+//! Walk         where the tool is, and what is active, statement by statement
 //! needs        which statements need which pass: a bit for each
 //! States       what each pass remembers from piece to piece
 //! ```

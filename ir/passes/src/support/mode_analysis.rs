@@ -1,11 +1,10 @@
-//! Facts that hold on every way to a statement are put into it: through loops, decisions, jumps and calls.
+//! Must-analysis: writes into each statement the facts that hold on every path to it, through loops, branches, jumps and calls.
 //!
-//! What is in force at the head of a loop is what is so before it and behind each turn; at a label, where every jump
-//! to it comes from; in a subprogram, at every call. Found by going through the program until nothing changes. What
-//! positions do that only a caller knows stays as it is. What holds where a stretch of blocks begins is kept for those
-//! who go on from there. A hole in a loop or behind a label at which one cycle is in force, as it was called up,
-//! calls it up by itself: where control goes, a target may leave none in force. A call that has served only such
-//! holes is left out.
+//! Paths merge at the head of a loop (before it, after each iteration), at a label (every jump to it) and at the start
+//! of a subprogram (every call). The analysis runs to a fixed point. Positions whose effect only a caller knows stay as
+//! they are. The facts at the start of each stretch of blocks are kept for later passes. Where one cycle is active at a
+//! hole in a loop or after a label, the hole activates it again, since a target may leave none active after a jump. A
+//! cycle call that served only such holes is left out.
 //!
 //! Not here: values of variables.
 
@@ -37,7 +36,7 @@ pub struct Known {
     starts: HashMap<u32, Tracker>,
     /// How corners are taken there, if that is known.
     paths: HashMap<u32, Option<Box<PathControl>>>,
-    /// Cycles in force at holes, by their places, that are as they were called up on every way there.
+    /// Cycles active at holes, by their places, that are as they were activated on every path there.
     cycles: HashMap<u32, Option<Called>>,
 }
 
@@ -47,7 +46,7 @@ impl Known {
         self.starts.get(&stmt.span.start)
     }
 
-    /// Puts units, feed and motion into a walk that comes to a statement from elsewhere.
+    /// Puts units, feed and motion into a walk that reaches a statement from elsewhere.
     pub(crate) fn feeds(&self, stmt: &Stmt, walk: &mut Tracker) {
         let Some(at) = self.before(stmt) else { return };
         (walk.modes.units, walk.modes.feed_mode) = (at.modes.units, at.modes.feed_mode);
@@ -59,19 +58,19 @@ impl Known {
         self.paths.get(&stmt.span.start)?.as_deref()
     }
 
-    /// The modes in force where stretches begin, by the places of their first statements.
+    /// The active modes where stretches begin, by the places of their first statements.
     pub fn modes(&self) -> HashMap<u32, Modes> {
         self.starts.iter().map(|(at, known)| (*at, known.modes)).collect()
     }
 }
 
-/// Has holes that the text itself puts under a cycle of another stretch call it up. What is `known` is of a copy of
+/// Has holes that the text itself puts under a cycle of another stretch activate it. What is `known` is of a copy of
 /// the program with its facts put in.
 pub(crate) fn holes(program: &mut Program, known: &Known) {
     call_up_all(program, &known.cycles, false);
 }
 
-/// Leaves such holes to what is in force, for a target that keeps it in loops as the source does. Tells whether there
+/// Leaves such holes to what is active, for a target that keeps it in loops as the source does. Tells whether there
 /// are any.
 pub(crate) fn positions(body: &mut [Stmt]) -> bool {
     let (mut called, mut any) = (false, false);
@@ -93,7 +92,7 @@ pub(crate) fn positions(body: &mut [Stmt]) -> bool {
 }
 
 /// Puts known facts in. `entry` is what holds where the program begins. With `holes`, those that the text itself
-/// puts under a cycle are made to call it up too.
+/// puts under a cycle are made to activate it too.
 pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
     let mut flow = Flow::new(program, Held { at: entry.clone(), ..Held::default() });
     flow.holes = holes;
@@ -131,7 +130,7 @@ pub(crate) fn starts(program: &Program, entry: &Tracker, path: Option<&PathContr
     })
 }
 
-/// What holds at each call that a way leads to, by its place, where subprograms give back what they say they do;
+/// What holds at each call that a way leads to, by its place, where subprograms restore the modes that they state;
 /// `None` if that is not found. `entry` is what holds where the program begins.
 pub(crate) fn at_calls(program: &Program, entry: &Tracker) -> Option<HashMap<u32, At>> {
     let mut program = program.clone();

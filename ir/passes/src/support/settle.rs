@@ -16,7 +16,7 @@ use ncc_ir::program::kinds::{conduct, flow, miscellaneous, modes, tooling, varia
 use ncc_ir::program::{Centre, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Shape, Slot, ToolLength};
 use ncc_ir::track::Tracker;
 
-/// Replaces what a statement takes from its caller by what is in force.
+/// Replaces what a statement takes from its caller by what is active.
 pub(crate) fn settle(op: &mut Op, here: &Tracker) {
     if let Op::Position(m) = op {
         let m = std::mem::take(m);

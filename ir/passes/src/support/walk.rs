@@ -1,7 +1,7 @@
-//! Walking a body of statements: where the tool stands on the way, and block skip.
+//! Walking a body of statements: where the tool is on the way, and block skip.
 //!
 //! A stretch of blocks with one skip level is executed whole or not at all, so that what holds
-//! afterwards is what holds on both ways; within the stretch nothing is in doubt. A block of modes alone
+//! afterwards is what holds on both paths; within the stretch nothing is in doubt. A block of modes alone
 //! (`/T2 M06`, `G17 G90`, `/G43 H2 Z5.`) does not end such a stretch.
 
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
@@ -23,7 +23,7 @@ pub(crate) struct Walk {
     /// A stretch that goes on where only modes come between: its level, the state where it is executed, and the
     /// state where it is skipped.
     paused: Option<(u8, Box<[Tracker; 2]>)>,
-    /// Facts taken for granted that the tracker has already.
+    /// Facts assumed that the tracker has already.
     assumed: Modes,
 }
 
@@ -156,7 +156,7 @@ impl Walk {
         });
     }
 
-    /// Takes over facts that were taken for granted since the last time.
+    /// Takes over facts that were assumed since the last time.
     pub(crate) fn assume(&mut self, assumed: &Modes) {
         if self.assumed == *assumed {
             return;
@@ -176,7 +176,7 @@ impl Walk {
         self.assumed = *assumed;
     }
 
-    /// Whether a statement surely commands the Z axis, so that a waiting length offset is taken up.
+    /// Whether a statement surely commands the Z axis, so that a waiting length offset takes effect.
     pub(crate) fn commands_z(&self, op: &Op) -> bool {
         let normal_is_z = || {
             let plane = self.at.cycle.as_ref().and_then(|c| c.cycle.plane.known());
@@ -218,7 +218,7 @@ impl Walk {
         }
     }
 
-    /// The unit in which lengths are written here: the one in force, or that of the cycle in force.
+    /// The unit in which lengths are written here: the active one, or that of the active cycle.
     pub(crate) fn unit(&self) -> Unit {
         let of_cycle = || {
             let retract = self.at.cycle.as_ref()?.cycle.retract.value.literal()?;
@@ -227,7 +227,7 @@ impl Walk {
         match self.at.modes.units {
             Some(ncc_ir::canon::Units::Mm) => Unit::Mm,
             Some(ncc_ir::canon::Units::Inch) => Unit::Inch,
-            // A literal in mm is what it says, whatever is in force.
+            // A literal in mm is what it says, whatever is active.
             None => of_cycle().unwrap_or(Unit::Mm),
         }
     }

@@ -1,7 +1,7 @@
-//! `threads`: moves in step with the spindle, as the target says them.
+//! `threads`: spindle-synchronised moves, as the target says them.
 //!
 //! Controls cut a thread as the spindle turns, at a lead that is stated; some turn the spindle
-//! themselves, after it has been stopped at an angle, some go in and out again in one block; some say the
+//! themselves, after it has been oriented, some go in and out again in one block; some say the
 //! lead with the feed word. What a target has no such move for is refused: a thread never becomes a plain
 //! feed. Along one axis all of them mean the same by a lead; along several they do not.
 //!
@@ -31,7 +31,7 @@ use ncc_ir::track::Tracker;
 /// A pass.
 pub(crate) const AS_CYCLES: Pass = Pass {
     name: "threads-as-cycles",
-    about: "says threads that the target has as cycles so",
+    about: "writes threads as cycles where the target has them",
     alone: None,
     step: Step::at(
         Moment::Wording,
@@ -48,7 +48,7 @@ pub(crate) const AS_CYCLES: Pass = Pass {
 /// A pass.
 pub(crate) const PASS: Pass = Pass {
     name: "threads",
-    about: "says threads in the target's form",
+    about: "writes threads in the target's form",
     alone: Some(run),
     step: Step::to_the_end(
         Moment::Wording,
@@ -78,14 +78,14 @@ struct WayOut {
     to: [Option<Nanos>; AXES],
     pitch: Pitch,
     turn: Turn,
-    /// The block of the way in, and its block-skip level: in a block that can be skipped both halves are of that block.
+    /// The block of the way in, and its block-skip level: in a block with block skip both halves are of that block.
     block: (Span, Option<u8>),
 }
 
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ThreadsState {
-    /// Feed and speed in force.
+    /// Feed and speed active.
     pub(crate) said: Said,
     /// What is written already, and has to come next.
     way_out: Option<WayOut>,
@@ -93,7 +93,7 @@ pub(crate) struct ThreadsState {
     owed: Option<Num>,
     /// Whether a lead has taken the place of a feed that is not known.
     lost: bool,
-    /// Whether the spindle was stopped at an angle, and held since.
+    /// Whether the spindle was oriented, and held since.
     held: bool,
 }
 
@@ -241,7 +241,7 @@ pub(crate) fn as_cycles(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target) 
     });
 }
 
-/// The cycle that makes the same moves from where the tool stands.
+/// The cycle that makes the same moves from where the tool is.
 fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
     let Op::SynchronisedFeed(m) = &stmt.op else { return None };
     let plane = walk.at.modes.plane?;
@@ -369,7 +369,7 @@ fn said(
         (Some(_), false) if threads.turned => cannot(ThreadsLack::NotOriented),
         (Some(turn), false) if threads.back => {
             let Some(out) = way_out else {
-                // The way in: the way out, which has to come next, is said with it.
+                // The way in: the way out, which has to come next, is stated with it.
                 if before[along as usize].is_none() {
                     return Err(Fault::PositionUnknown { axis: along.letter() as char });
                 }

@@ -1,7 +1,7 @@
-//! Threads: taps, and moves in step with the spindle.
+//! Threads: taps, and spindle-synchronised moves.
 //!
 //! ```text
-//! START_CYCLE(tap-rigid(clockwise, pitch 1.25mm), …)    taps       by the feed and speed in force: F500 at S400
+//! START_CYCLE(tap-rigid(clockwise, pitch 1.25mm), …)    taps       by the feed and speed active: F500 at S400
 //! SYNCHRONISED_FEED(Z -12mm, pitch 1mm), and back    threads    a tapping cycle, where the target has no such move
 //! ```
 //!

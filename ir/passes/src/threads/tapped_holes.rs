@@ -1,11 +1,11 @@
-//! `tapped-holes`: threads that are cut by moves in step with the spindle, one in and one out, as tapping cycles.
+//! `tapped-holes`: threads that are cut by spindle-synchronised moves, one in and one out, as tapping cycles.
 //!
 //! For targets that have such a cycle and no such moves. The tool stands where the thread begins; it goes in along the
-//! axis of the plane, may dwell, has the spindle turned round, and comes out to where it began, or to where it stood before
+//! axis of the plane, may dwell, has the spindle turned round, and retracts to where it began, or to where it stood before
 //! a rapid took it there. Dwells and turns of the spindle among them are the cycle's.
 //!
-//! Left as they are, and refused later: a thread with anything else among its blocks or with one that can be skipped, with
-//! another feed on the way out, along several axes, or where the tool stands is not known; dwells and turns of which the
+//! Left as they are, and refused later: a thread with anything else among its blocks or with one under block skip, with
+//! another feed on the way out, along several axes, or where the tool is is not known; dwells and turns of which the
 //! target's cycle makes others. In and out in one block is `threads`'.
 
 use crate::pass::{Moment, Pass, Step};
@@ -62,7 +62,7 @@ pub(crate) fn is_half(stmt: &Stmt, target: &Target) -> bool {
     !says && !threads.any && !m.back && form(m.chuck, target).is_some()
 }
 
-/// How the target's cycle for such a thread is said.
+/// How the target's cycle for such a thread is stated.
 fn form(chuck: bool, target: &Target) -> Option<CycleForm> {
     let name = if chuck { "tap" } else { "tap-rigid" };
     target.caps.holes.cycles.iter().find(|cap| cap.kind == name).map(|cap| cap.form)
@@ -74,7 +74,7 @@ pub(crate) fn fold_tapped_holes(body: &mut Vec<Stmt>, walk: &mut Walk, target: &
     let mut rest = &old[..];
     while let Some(stmt) = rest.first() {
         walk.enter(stmt.skip);
-        // A rapid to where the thread begins is the cycle's, where the way out goes back to before it.
+        // A rapid to where the thread begins is the cycle's, where the way out returns to before it.
         let before = if leads_down(stmt, walk) { said(&rest[1..]) + 1 } else { 0 };
         let mut there = walk.clone();
         rest[..before].iter().for_each(|stmt| there.step(stmt));
@@ -103,7 +103,7 @@ pub(crate) fn fold_tapped_holes(body: &mut Vec<Stmt>, walk: &mut Walk, target: &
             one.joined = place == 1;
             body.push(one);
         }
-        // Their comments stand behind the cycle.
+        // Their comments stand after the cycle.
         for stmt in own.iter().filter(|stmt| !is_said(&stmt.op)) {
             if let Some(comment) = &stmt.comment {
                 body.push(Stmt::new(stmt.span, Op::Comment((**comment).clone())));
@@ -134,7 +134,7 @@ fn leads_down(stmt: &Stmt, walk: &Walk) -> bool {
     stmt.skip.is_none() && level == Some(true)
 }
 
-/// Where a point is that has a word for this axis alone.
+/// Where a point is that supports this axis alone.
 fn along(to: &Point, axis: Axis, walk: &Walk, from: Nanos) -> Option<Nanos> {
     let only = Axis::ALL.into_iter().all(|other| (other == axis) == to.get(other).is_some());
     if only { walk.at.resolve(to.get(axis)?, Some(from)) } else { None }

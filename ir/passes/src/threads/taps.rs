@@ -1,8 +1,8 @@
 //! `taps`: a thread's pitch and what the spindle does after a hole, as the target says them.
 //!
-//! Some controls take the pitch from feed and speed, others state it; some leave the spindle standing
+//! Some controls take the pitch from feed and speed, others state it; some leave the spindle stopped
 //! after a rigid tap, others start it again. Where the cycle's end has to say what the cycle itself
-//! cannot, it is said there. A feed by the turn with more digits than the target writes is said by the minute. A feed that the cycle set stays in force after it, as it was. After boring
+//! cannot, it is stated there. A feed by the turn with more digits than the target writes is stated by the minute. A feed that the cycle set stays active after it, as it was. After boring
 //! with a stop, one control has the spindle turn clockwise, another as it did before: where it surely
 //! turns clockwise, these are one.
 //!
@@ -31,7 +31,7 @@ use crate::support::walk::Walk;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "taps",
-    about: "says pitches of threads in the target's form",
+    about: "writes pitches of threads in the target's form",
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
@@ -54,7 +54,7 @@ const PITCH_DIGITS: u8 = 6;
 /// The same in inches, of which one digit less would be coarser.
 const PITCH_DIGITS_INCH: u8 = 8;
 
-/// Feed and speed in force, as far as they are numbers.
+/// Feed and speed active, as far as they are numbers.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Said {
     pub(crate) speed: Option<Num>,
@@ -64,17 +64,17 @@ pub(crate) struct Said {
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TapsState {
-    /// Feed and speed in force.
+    /// Feed and speed active.
     pub(crate) said: Said,
-    /// A tap has been changed and is in force, and relies on feed or speed staying as they are.
+    /// A tap has been changed and is active, and relies on feed or speed staying as they are.
     changed: bool,
     /// The feed that it says on the target.
     feed: Option<Num>,
     /// What its end has to say.
     owed: Vec<Op>,
-    /// A bore is in force that relies on the spindle turning clockwise.
+    /// A bore is active that relies on the spindle turning clockwise.
     clockwise: bool,
-    /// Whether a feed that is not said here has been said where control comes from.
+    /// Whether a feed that is not said here has been stated where control comes from.
     entered: bool,
     /// A tap has put its feed in the place of one that is not known.
     lost: bool,
@@ -89,7 +89,7 @@ impl TapsState {
         TapsState { said, entered: known.fed, ..TapsState::default() }
     }
 
-    /// Whether the feed that a stretch leaves in force is another than the program's, which is not known.
+    /// Whether the feed that a stretch leaves active is another than the program's, which is not known.
     pub(crate) fn has_lost_feed(&self) -> bool {
         self.lost
     }
@@ -108,7 +108,7 @@ impl TapsState {
         }
     }
 
-    /// Whether statements are holes and plain moves alone, and no cycle that was changed is in force or has left its feed:
+    /// Whether statements are holes and plain moves alone, and no cycle that was changed is active or has left its feed:
     /// then they are noted, and no more.
     fn passes(&self, stmts: &[Stmt]) -> bool {
         let plain = |stmt: &Stmt| {
@@ -145,7 +145,7 @@ impl Said {
     /// Takes note of feed and speed.
     #[inline]
     pub(crate) fn note(&mut self, stmt: &Stmt) {
-        // In a block that can be skipped, the number that is active already changes nothing.
+        // In a block with block skip, the number that is active already changes nothing.
         let literal = |value: &Expr, now: Option<Num>| {
             value.literal().filter(|value| stmt.skip.is_none() || Some(*value) == now)
         };
@@ -213,7 +213,7 @@ pub(crate) fn convert_taps(
             };
         let same = state.changed && state.says_the_same(&stmt, walk);
         if same {
-            // It is in force there already, and stays so behind the tap.
+            // It is active there already, and stays so after the tap.
             state.owed.retain(|op| !matches!(op, Op::SetFeedRate(_)));
         }
         let relies = state.changed && !same && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_))
@@ -280,7 +280,7 @@ pub(crate) fn convert_taps(
             state.note(&said);
             made.push(said);
         }
-        // A mode that is in force already leaves the feed as it is; in other units it is still that of the source.
+        // A mode that is active already leaves the feed as it is; in other units it is still that of the source.
         let again = match &stmt.op {
             Op::SetFeedMode(mode) => walk.at.modes.feed_mode == Some(*mode),
             Op::UseLengthUnits(units) => walk.at.modes.units == Some(*units),
@@ -306,7 +306,7 @@ pub(crate) fn convert_taps(
     });
 }
 
-/// What cannot be said of a spindle that is switched while a cycle is in force whose end has to say what
+/// What cannot be said of a spindle that is switched while a cycle is active whose end has to say what
 /// the spindle does.
 fn turned(stmt: &Stmt, state: &TapsState) -> Option<ThreadsLack> {
     let stops =
@@ -338,7 +338,7 @@ fn by_minute(cycle: &Cycle, walk: &Walk, state: &TapsState, target: &Target) -> 
     (digits(turn) > decimals && digits(minute) <= decimals).then(|| exact(minute, unit))
 }
 
-/// Makes a tap one that the target says. Gives the feed that must be said before it, if it was changed.
+/// Makes a tap one that the target says. Gives the feed that must be stated before it, if it was changed.
 #[allow(clippy::option_option)]
 fn fit(
     cycle: &mut Cycle,

@@ -30,7 +30,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// Whether the two controls differ: by the plane in force, and by that of the call.
+/// Whether the two controls differ: by the active plane, and by that of the call.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LengthAxisState {
     in_plane: bool,

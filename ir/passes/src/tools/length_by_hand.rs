@@ -43,9 +43,9 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct LengthByHandState {
     /// Whether Z has moved by its length, or without; `None` if it has not moved.
     used: Option<bool>,
-    /// Whether a length that the program states itself may be in force.
+    /// Whether a length that the program states itself may be active.
     stated: bool,
-    /// Tools of which the operator's work has been told.
+    /// Tools of which the operator's work has been reported.
     reported: Vec<u32>,
     /// A refusal stands, so that no further one follows from it.
     refused: bool,
@@ -74,7 +74,7 @@ pub(crate) fn drop_lengths(
         }
         let leaves_out = match &stmt.op {
             Op::ChangeTool => {
-                // The operator sets Z anew.
+                // The operator sets Z again.
                 (state.used, state.refused, state.offset_z) = (None, false, None);
                 false
             }
@@ -101,7 +101,7 @@ pub(crate) fn drop_lengths(
 }
 
 impl LengthByHandState {
-    /// A length is called up.
+    /// A length is activated.
     fn calls(&mut self, entry: Option<i64>, stmt: &Stmt, walk: &Walk, diags: &mut Vec<Diagnostic>) {
         match (entry, walk.at.tool) {
             (Some(0), _) => {}

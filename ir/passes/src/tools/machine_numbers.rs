@@ -1,7 +1,7 @@
 //! `machine-numbers`: puts the target machine's numbers of tools, entries of the length table, work
 //! offsets and programs in.
 //!
-//! It goes by [`Maps`] and knows no machine. What the program uses and a map in force does not have
+//! It goes by [`Maps`] and knows no machine. What the program uses and an active map does not have
 //! is refused where it stands, and so is a number that is computed; nothing is passed on by chance.
 //! It cannot be asked for by name: a program is renumbered once, when it goes from one machine to another.
 
@@ -122,12 +122,12 @@ impl Renumbering {
         }
     }
 
-    /// Facts that were taken for granted, in the target's numbers.
+    /// Facts that were assumed, in the target's numbers.
     pub fn modes(&self, assumed: &Modes) -> Modes {
         self.maps.modes(assumed)
     }
 
-    /// Refuses facts that were taken for granted and that the target has no number for. `at` is where
+    /// Refuses facts that were assumed and that the target has no number for. `at` is where
     /// the program is that relies on them.
     pub fn check_modes(&mut self, assumed: &Modes, at: Span, diags: &mut Vec<Diagnostic>) {
         if let Some(number) = assumed.work_offset {
@@ -150,7 +150,7 @@ impl Renumbering {
                     self.put_in(tool, Numbered::Tool, at, diags);
                 }
                 Op::SelectToolByName(name) => {
-                    // Without a number it stays as it is, and who has no words for it refuses it.
+                    // Without a number it stays as it is, and who lacks it refuses it.
                     if let Some(number) = self.number_of(name) {
                         stmt.op = Op::SelectTool(Expr::int(number));
                     }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! USE_TOOL_LENGTH_OFFSET(2)               tool-edge     USE_TOOL_EDGE(1), for a target whose lengths are edges
-//! SELECT_TOOL(2) & CHANGE_TOOL()          tool-change   the spindle started again behind it, where the target stops it
+//! SELECT_TOOL(2) & CHANGE_TOOL()          tool-change   the spindle started again after it, where the target stops it
 //! ```
 //!
 //! Not here: what a change does besides its name: the dictionary says it, and `modes::side_effects` writes it.

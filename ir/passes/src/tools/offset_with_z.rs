@@ -1,6 +1,6 @@
 //! `offset-with-z`: a tool-length offset goes into the block that next commands the Z axis.
 //!
-//! An offset moves nothing and is taken up with the next command of Z, so that the machine does the
+//! An offset moves nothing and takes effect with the next command of Z, so that the machine does the
 //! same. It stands in a block with Z because some controls move the axis by the offset at once if
 //! it stands alone (16-C; 30i-C, parameter 5006#6).
 
@@ -40,7 +40,7 @@ pub(crate) struct OffsetWithZState {
     waiting: Option<Waiting>,
     /// Number of the present block.
     block: u64,
-    /// The program goes back to a caller that is not in the text, so that no offset may wait at its end.
+    /// The program returns to a caller that is not in the text, so that no offset may wait at its end.
     alone: bool,
 }
 
@@ -53,7 +53,7 @@ struct Waiting {
     block: u64,
     /// It has been reported.
     reported: bool,
-    /// Whether it is in force already: where no move along Z comes, nothing is lost without it.
+    /// Whether it is active already: where no move along Z comes, nothing is lost without it.
     in_force: bool,
 }
 
@@ -86,7 +86,7 @@ impl OffsetWithZState {
         self.waiting.is_some()
     }
 
-    /// The end of the body: an offset that nothing takes up stands where it may do no harm, last.
+    /// The end of the body: an offset that nothing applies stands where it may do no harm, last.
     pub(crate) fn flush(&mut self, body: &mut Vec<Stmt>) {
         if let Some(waiting) = self.waiting.take().filter(|waiting| !waiting.in_force) {
             body.push(waiting.into_stmt());
@@ -175,7 +175,7 @@ pub(crate) fn delay_offset(
     *body = made.out;
 }
 
-/// Whether an entry is surely in force, and its values are those that it was called up with.
+/// Whether an entry is surely active, and its values are those that it was activated with.
 fn is_in_force(walk: &Walk, entry: &Expr) -> bool {
     let entry = entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok());
     !walk.waiting && entry.is_some() && walk.at.modes.length_offset == entry
@@ -185,7 +185,7 @@ fn is_zero(entry: &Expr) -> bool {
     entry.literal().is_some_and(|n| n.is_zero())
 }
 
-/// Whether a statement calls up a cycle that drills along Z: its block says Z.
+/// Whether a statement activates a cycle that drills along Z: its block says Z.
 fn calls_up(walk: &Walk, op: &Op) -> bool {
     match op {
         Op::StartCycle(cycle) => walk.at.plane(cycle.plane).is_none_or(|p| p == ncc_ir::canon::Plane::Xy),

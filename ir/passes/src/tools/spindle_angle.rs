@@ -1,7 +1,7 @@
-//! `spindle-angle`: the spindle stopped at an angle, on the target's machine.
+//! `spindle-angle`: oriented spindle stop, on the target's machine.
 //!
-//! Where the zero of the angle is, is a matter of each machine: that it is in one place on both is taken for
-//! granted and told. Where the target has no stop at an angle of its own, the angle must be stated: that of the
+//! Where the zero of the angle is, is a matter of each machine: that it is in one place on both is assumed and reported.
+//! Where the target has no stop at an angle of its own, the angle must be stated: that of the
 //! source's control, if its profile says it.
 
 use crate::pass::{Moment, Pass, Step};
@@ -27,7 +27,7 @@ pub(crate) const PASS: Pass = Pass {
     parametric: None,
 };
 
-/// What has been told.
+/// What has been reported.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SpindleAngleState {
     zero: bool,

@@ -1,9 +1,9 @@
-//! `tool-axis`: control of the tool's tip, and tilted working planes, in the target's form.
+//! `tool-axis`: tool centre point control, and tilted working planes, in the target's form.
 //!
-//! Some controls take up the tool's length with the word that switches control of its tip on, and drop both
-//! with one word; others say the two apart. A plane's turns are said about Z, X and Z, or about three
+//! Some controls apply the tool's length with the word that switches control of its tip on, and drop both
+//! with one word; others say the two apart. A plane's turns are stated about Z, X and Z, or about three
 //! different axes: the same plane is found by sums with quarter and half turns where they do, otherwise from the
-//! directions of its axes, to a billionth of a degree, which the target's digits round. What the kinematics of the two machines have to agree about is told
+//! directions of its axes, to a billionth of a degree, which the target's digits round. What the kinematics of the two machines have to agree about is reported
 //! once.
 
 use crate::pass::{Moment, Pass, Step};
@@ -26,7 +26,7 @@ use ncc_ir::track::Tracker;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "tool-axis",
-    about: "says control of the tool's tip and tilted planes in the target's form",
+    about: "writes tool centre point control and tilted planes in the target's form",
     alone: Some(run),
     step: Step::at(
         Moment::Wording,
@@ -50,15 +50,15 @@ pub(crate) const PASS: Pass = Pass {
 pub(crate) struct ToolAxisState {
     tip: Known,
     tilt: Known,
-    /// How many lengths that come next were said already with the word before them.
+    /// How many lengths that come next were stated already with the word before them.
     pair: u32,
-    /// The work offset that was said already, before the word that it stands behind in the source.
+    /// The work offset that was stated already, before the word that it stands after in the source.
     offset: Option<u16>,
-    /// Whether each was told.
+    /// Whether each was reported.
     reported: [bool; 2],
 }
 
-/// Whether something is in force.
+/// Whether something is active.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Now {
     #[default]
@@ -109,7 +109,7 @@ impl ToolAxisState {
         self.tip.met
     }
 
-    /// Whether the length at hand was said already.
+    /// Whether the length at hand was stated already.
     fn has_said_length(&mut self) -> bool {
         let said = self.pair > 0;
         self.pair = self.pair.saturating_sub(1);
@@ -158,7 +158,7 @@ impl ToolAxisState {
         Ok(())
     }
 
-    /// A tilted plane is set, where the tool is turned onto it at a place behind or is not.
+    /// A tilted plane is set, where the tool is swivelled to it at a place after or is not.
     fn set_tilt(
         &mut self,
         stmt: Stmt,
@@ -205,7 +205,7 @@ impl ToolAxisState {
     }
 }
 
-/// Whether it is a length that is said.
+/// Whether it is a length that is stated.
 pub(crate) fn is_length(op: &Op) -> bool {
     matches!(op, Op::UseToolLengthOffset(_))
 }
@@ -265,7 +265,7 @@ pub(crate) fn convert_axis_lengths(
                 }
                 refuse(ToolsLack::LengthUnderTip.into());
             }
-            // The one in force is said again; a control may take no such word there.
+            // The one active is stated again; a control may take no such word there.
             Op::SetOriginOffsets(n) if caps.tools.tip == TipForm::WithLength && !state.tip.is_off() => {
                 let said = [state.offset.take(), before.work_offset].contains(&Some(*n));
                 match said && state.tip.is_on() {
@@ -337,8 +337,8 @@ pub(crate) fn convert_axis_lengths(
     });
 }
 
-/// Control of the tip where the length is said with it: the length that belongs to the word stands behind
-/// it, and what is in force is said again where no other comes.
+/// Control of the tip where the length is stated with it: the length that belongs to the word stands after
+/// it, and what is active is stated again where no other comes.
 fn with_length(
     stmt: Stmt,
     on: bool,
@@ -383,7 +383,7 @@ fn number(entry: &Expr) -> Option<u32> {
     entry.literal().and_then(|n| n.whole_number()).and_then(|n| u32::try_from(n).ok())
 }
 
-/// What is said behind a word that switches control of the tip, before anything moves.
+/// What is stated after a word that switches control of the tip, before anything moves.
 #[derive(Clone, Copy, Debug, Default)]
 struct Behind {
     /// The last length; the others before it are never used.
@@ -394,8 +394,8 @@ struct Behind {
     offset: Option<u16>,
 }
 
-/// For each statement that switches control of the tip: what is said behind it before anything moves. Blocks that can
-/// be skipped end what is looked at.
+/// For each statement that switches control of the tip: what is stated after it before anything moves. Blocks under block skip
+/// end what is looked at.
 fn said_behind(body: &[Stmt]) -> Vec<Behind> {
     if !body.iter().any(|stmt| matches!(stmt.op, Op::UseToolCentrePoint(_))) {
         return Vec::new();
@@ -424,7 +424,7 @@ fn said_behind(body: &[Stmt]) -> Vec<Behind> {
     behind
 }
 
-/// Where the tool is turned onto a plane that was set before.
+/// Where the tool is swivelled to a plane that was set before.
 #[derive(Clone, Copy, Debug)]
 struct Oriented {
     place: usize,
@@ -437,7 +437,7 @@ impl Oriented {
     }
 }
 
-/// For each statement that sets a tilted plane: where the tool is turned onto it, if nothing happens
+/// For each statement that sets a tilted plane: where the tool is swivelled to it, if nothing happens
 /// between.
 fn orientations_behind(body: &[Stmt]) -> Vec<Option<Oriented>> {
     if !body.iter().any(|stmt| matches!(stmt.op, Op::OrientToolAxis(_))) {

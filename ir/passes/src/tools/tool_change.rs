@@ -14,7 +14,7 @@ use ncc_ir::source::Span;
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "tool-change",
-    about: "starts the spindle again behind a tool change that stops it on the target alone",
+    about: "starts the spindle again after a tool change that stops it on the target alone",
     alone: None,
     step: Step::to_the_end(
         Moment::Arrival,
@@ -46,7 +46,7 @@ impl ToolChangeState {
         *self = ToolChangeState { turning: true, open: None, cycle: false };
     }
 
-    /// The text of a main program ends, which may have no word for its end.
+    /// The text of a main program ends, which may lack its end.
     pub(crate) fn finish(&mut self, diags: &mut Vec<Diagnostic>) {
         if let Some((at, _)) = self.open.take() {
             diags.push(goes_on(at));

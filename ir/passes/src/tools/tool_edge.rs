@@ -1,10 +1,10 @@
 //! `tool-edge`: a tool's length by an edge of the tool in the spindle, or by an entry of a table.
 //!
-//! Edge 1 of tool `n` is entry `n` of the table: an assumption, told once for each tool. Of a tool whose number is not
-//! known it stays edge 1 for a target that calls up the length of the tool in the spindle without its number. Another edge
+//! Edge 1 of tool `n` is entry `n` of the table: an assumption, reported once for each tool. Of a tool whose number is not
+//! known it stays edge 1 for a target that activates the length of the tool in the spindle without its number. Another edge
 //! has an entry only where the target's settings name one, and no other entry has an edge: else they are refused. On a
-//! control with edges a tool change makes edge 1 active by itself, so that what is in force after the change is said
-//! there: it moves nothing until Z is commanded, and stands right behind the change where nothing commands Z between. An edge of a tool
+//! control with edges a tool change makes edge 1 active by itself, so that what is active after the change is stated
+//! there: it moves nothing until Z is commanded, and stands right after the change where nothing commands Z between. An edge of a tool
 //! that the program has not called is left out where another follows before Z is commanded.
 
 use crate::pass::{Moment, Pass, Step};
@@ -48,7 +48,7 @@ pub(crate) const PASS: Pass = Pass {
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ToolEdgeState {
-    /// Tools of which the assumption has been told.
+    /// Tools of which the assumption has been reported.
     reported: Vec<u32>,
     /// A tool change, or the edge that comes with it, after which Z has not been commanded.
     waiting: Option<Waiting>,
@@ -62,7 +62,7 @@ struct Waiting {
     skip: Option<u8>,
     /// The program says the edge itself.
     said: bool,
-    /// Why the edge cannot be said; told only if it is used, or said and in force to the end.
+    /// Why the edge cannot be stated; told only if it is used, or said and active to the end.
     refused: Option<Fault>,
 }
 
@@ -80,17 +80,17 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 }
 
 impl ToolEdgeState {
-    /// Whether a tool change waits for the length that is in force after it.
+    /// Whether a tool change waits for the length that is active after it.
     pub(crate) fn is_busy(&self) -> bool {
         self.waiting.is_some()
     }
 
-    /// At the start of another body: no tool change waits, what was told stays told.
+    /// At the start of another body: no tool change waits, what was reported stays reported.
     pub(crate) fn start_over(&mut self) {
         self.waiting = None;
     }
 
-    /// At the end of a body: what the program says itself is in force behind it.
+    /// At the end of a body: what the program says itself is active after it.
     pub(crate) fn finish(&mut self, diags: &mut Vec<Diagnostic>) {
         if let Some(Waiting { refused: Some(fault), span, said: true, .. }) = self.waiting.take() {
             diags.push(Diagnostic::new(fault, span));
@@ -190,7 +190,7 @@ fn to_entries(
     let unknown = whole_number(&edge) == Some(1) && tool(walk).is_none() && walk.at.tool != Some(0);
     walk.step(&stmt);
     if let Some(before) = state.waiting.take() {
-        // Nothing has taken up the edge that came with the tool.
+        // Nothing has applied the edge that came with the tool.
         if stmt.skip.is_none() || stmt.skip == before.skip {
             if let Some(place) = before.place {
                 remove(made, place);
@@ -340,14 +340,14 @@ fn edge_of(entry: Option<u32>, tool: Option<u32>) -> Result<i64, Fault> {
     }
 }
 
-/// Where what stands behind the block of a tool change is put, if the change is in this piece.
+/// Where what stands after the block of a tool change is put, if the change is in this piece.
 fn behind(waiting: &Waiting, made: &Rebuild) -> Option<usize> {
     let change = waiting.place?;
     let joined = made.out.get(change + 1..)?.iter().take_while(|s| s.joined).count();
     Some(change + 1 + joined)
 }
 
-/// Says behind a tool change what was in force before it, because `stmt`, which comes next, may take
+/// Says after a tool change what was active before it, because `stmt`, which comes next, may take
 /// it up.
 fn in_force(
     stmt: &mut Stmt,

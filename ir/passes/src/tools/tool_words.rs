@@ -54,7 +54,7 @@ pub(crate) struct ToolWords {
     left: Option<Waiting>,
     /// No tool ever waits for its change.
     none_waits: bool,
-    /// A selection that goes behind the block at hand.
+    /// A selection that goes after the block at hand.
     behind: Option<Stmt>,
 }
 
@@ -75,7 +75,7 @@ impl ToolWords {
         self.before = None;
     }
 
-    /// Before a statement is put behind those of `made`.
+    /// Before a statement is put after those of `made`.
     pub(crate) fn before(&mut self, stmt: &Stmt, made: &mut Vec<Stmt>) {
         if !stmt.joined {
             self.before = None;

@@ -26,7 +26,7 @@ use ncc_ir::program::{Op, Stmt};
 /// This pass.
 pub(crate) const PASS: Pass = Pass {
     name: "z-after-change",
-    about: "says where Z stands behind a tool change that takes it away on one control",
+    about: "states Z after a tool change that retracts it on one control",
     alone: None,
     step: Step::at(
         Moment::Arrival,

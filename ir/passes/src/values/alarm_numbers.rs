@@ -1,5 +1,5 @@
 //! Alarms under the numbers that the target has, or with their number before the text where it has none
-//! ([`ncc_ir::alarms`]), and told; so is a text that ends before its end.
+//! ([`ncc_ir::alarms`]), and reported; so is a text that ends before its end.
 //!
 //! The numbers of alarms that are computed stay. Not here: alarms that the target gives by itself.
 
@@ -19,7 +19,7 @@ pub(crate) const TEXTS: Pass =
 /// This pass.
 pub(crate) const NUMBERS: Pass = Pass::named("alarm-numbers", "numbers alarms as the target does", None);
 
-/// Most alarms that are told.
+/// Most alarms that are reported.
 const MOST_TOLD: usize = 20;
 
 /// Says the alarms of a program as a control does that has these. `calls` is whether it says calls of a computed
@@ -39,7 +39,7 @@ pub fn run(program: &mut Program, alarms: &Alarms, calls: bool, diags: &mut Vec<
     }
 }
 
-/// Texts of alarms in the characters that a control shows, as its comments are, and told.
+/// Texts of alarms in the characters that a control shows, as its comments are, and reported.
 pub fn in_its_characters(program: &mut Program, alarms: &Alarms, diags: &mut Vec<Diagnostic>) {
     program.procedures.iter_mut().for_each(|procedure| characters(&mut procedure.body, alarms, diags));
 }

@@ -2,9 +2,9 @@
 //!
 //! Comparisons to the least bit and those within a tolerance are the same of whole numbers, and become the target's
 //! own there; elsewhere they stay what they are, but for those within another control's tolerance, which take the
-//! target's, and that is told. Rounding of what has no more digits anyway is left out where words do
+//! target's, and that is reported. Rounding of what has no more digits anyway is left out where words do
 //! not round by themselves. A function that another one is as well, but for negative numbers, becomes that where nothing
-//! is negative; else it is put together, or the value taken for granted and told: execution tells whether it is so.
+//! is negative; else it is put together, or the value assumed and reported: execution tells whether it is so.
 //!
 //! Not here: what a target has no way to say at all (`computes`), and variables (`variables`).
 
@@ -44,7 +44,7 @@ pub fn run(program: &mut Program, computes: &Computes, own: Option<Num>, diags: 
     }
 }
 
-/// Tells once what is taken for granted.
+/// Tells once what is assumed.
 fn tell(assumption: ControlFact, at: Span, diags: &mut Vec<Diagnostic>) {
     let fault = Fault::AssumedFact { fact: assumption };
     if !diags.iter().any(|reported| reported.fault == fault) {

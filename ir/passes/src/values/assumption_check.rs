@@ -1,9 +1,9 @@
-//! What a translation takes for granted of the numbers of a program, read the other way: not a pass.
+//! What a translation assumes of the numbers of a program, read the other way: not a pass.
 //!
-//! A target that compares to the least bit takes for granted that no two numbers are only nearly equal, and so does one
+//! A target that compares to the least bit assumes that no two numbers are only nearly equal, and so does one
 //! that finds these equal of a source that does not; one whose
-//! functions round towards zero, that none is below zero; one whose words have fewer digits, that what it rounds comes to
-//! nothing where it adds up. Where an output differs from its source, and not from the
+//! functions round towards zero, that none is below zero; one whose words have fewer digits, that what it rounds gives nothing
+//! where it adds up. Where an output differs from its source, and not from the
 //! source in the other reading, the numbers are not as they were taken for; any other difference is a wrong translation.
 
 use crate::values::variables::{Fineness, as_rounded, expressions};
@@ -15,14 +15,14 @@ use ncc_ir::program::Program;
 use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
-/// What is taken for granted.
+/// What is assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assumption {
     /// Numbers that are compared are equal, or further apart than any tolerance.
     Apart,
     /// Numbers that are rounded up or down, or divided for a remainder, are not below zero.
     NotNegative,
-    /// Lengths that the target rounds, each by itself, add up to no more than its last digit.
+    /// Lengths that the target rounds, each by itself, add up to no more than its least increment.
     Together,
 }
 
@@ -37,7 +37,7 @@ impl Assumption {
     }
 }
 
-/// What the target has of which something is taken for granted.
+/// What the target has of which something is assumed.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetNumerics<'t> {
     /// Its functions.
@@ -73,7 +73,7 @@ pub fn computes_numbers(program: &Program) -> bool {
     found
 }
 
-/// The program with the other reading of what is taken for granted, for such a target; `None` where it has none.
+/// The program with the other reading of what is assumed, for such a target; `None` where it has none.
 /// Expressions are read so up to a place of the text.
 pub fn other_reading(
     program: &Program,

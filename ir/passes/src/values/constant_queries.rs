@@ -1,5 +1,5 @@
 //! Modes that a program asks the control for and that are known there: their values in the places of the questions, for a
-//! control that cannot be asked. A macro that saves `#3=#4003` where G90 is in force on every way saves 90, and `G#3` is G90.
+//! control that cannot be asked. A macro that saves `#3=#4003` where G90 is active on every path saves 90, and `G#3` is G90.
 //!
 //! Not here: what is known where (`mode_analysis`).
 
@@ -44,7 +44,7 @@ impl Saved {
         self
     }
 
-    /// What its caller knows behind the call.
+    /// What its caller knows after the call.
     pub(crate) fn left(self, caller: &Saved, shared: bool) -> Saved {
         let mut behind = self.entered(shared);
         let own = caller.0.iter().filter(|(var, _)| !shared && matches!(var, Var::Local(_)));
@@ -87,7 +87,7 @@ pub(crate) fn put_in(value: &mut Expr, known: &Modes, target: &Computes) {
     }
 }
 
-/// `false` where one of them is not known. Sums of products of what is whole are worked out.
+/// `false` where one of them is not known. Sums of products of what is whole are computed.
 fn fill(value: &mut Expr, known: &Modes, target: Option<&Computes>) -> bool {
     let Expr::Node(node) = value else { return true };
     if let Node::Var(Var::System(asked)) = &**node {
@@ -114,7 +114,7 @@ fn fill(value: &mut Expr, known: &Modes, target: Option<&Computes>) -> bool {
     all
 }
 
-/// What such a question has for an answer, where these modes are in force.
+/// What such a question has for an answer, where these modes are active.
 fn answer(asked: &System, known: &Modes) -> Option<i64> {
     fn is<T: PartialEq>(known: Option<T>, this: &T) -> Option<i64> {
         known.map(|known| i64::from(known == *this))

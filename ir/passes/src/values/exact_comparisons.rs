@@ -2,7 +2,7 @@
 //! nearly so.
 //!
 //! What one control compares to within a tolerance is the same there unless two numbers differ by less than that;
-//! the program is taken to compare none such, which is told. Execution tells whether it is so.
+//! the program is taken to compare none such, which is reported. Execution tells whether it is so.
 
 use crate::pass::Pass;
 use crate::values::variables::expressions;

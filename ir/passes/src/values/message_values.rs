@@ -1,4 +1,4 @@
-//! `message_values`: values in messages with the digits that the target has, and told: `-1.25` on a control that leaves
+//! `message_values`: values in messages with the digits that the target has, and reported: `-1.25` on a control that leaves
 //! out the zeros at their end is `-1.250000` on one that does not. Whole numbers stand as they are on both.
 //!
 //! Not here: values that are no variables, which are given to one before (`control_forms`).
@@ -20,7 +20,7 @@ pub(crate) const PASS: Pass = Pass::parametric(
     },
 );
 
-/// Says the values of a program's messages with so many digits behind the point.
+/// Says the values of a program's messages with so many digits after the point.
 pub fn run(program: &mut Program, digits: u8, diags: &mut Vec<Diagnostic>) {
     let mut first = None;
     for procedure in &mut program.procedures {

@@ -1,5 +1,5 @@
-//! Values of the control that count in a stated unit, in a program that has no other in force: they count in the one in
-//! force, as on controls that know no other; and the other way about, for a target that knows them in a stated unit alone.
+//! Values of the control that count in a stated unit, in a program that has no other active: they count in the active one,
+//! as on controls that know no other; and the other way about, for a target that knows them in a stated unit alone.
 
 use ncc_ir::canon::Units;
 use ncc_ir::computed::computes::Computes;
@@ -15,7 +15,7 @@ use crate::values::variables::expressions;
 /// This pass.
 pub(crate) const PASS: Pass = Pass::parametric(
     "unit-in-force",
-    "says what is counted in the unit in force",
+    "states values that count in the active unit",
     |own, _| own.others,
     |program, own, _| run(program, own.target),
 );
@@ -28,8 +28,8 @@ pub fn run(program: &mut Program, target: &Computes) {
     }
 }
 
-/// The unit that is in force wherever something is asked of the control; `None` if there are several, or some may be
-/// asked before any is said.
+/// The unit that is active wherever something is asked of the control; `None` if there are several, or some may be
+/// asked before any is stated.
 fn only(program: &Program) -> Option<Units> {
     let main = &program.procedures.first()?.body;
     let head = main.iter().take_while(|stmt| !matches!(stmt.op, flow!()));
@@ -39,8 +39,8 @@ fn only(program: &Program) -> Option<Units> {
     });
     let unit = program.assumed.units.or(first)?;
     let same = Said::by(program).only() == Some(unit);
-    // Before the first word of units nothing is asked that is not asked behind it, too: a unit that was taken for
-    // granted is that of the whole head.
+    // Before the first word of units nothing is asked that is not asked after it, too: a unit that was assumed
+    // is that of the whole head.
     let early = program.assumed.units.is_none()
         && main.iter().take_while(|stmt| !matches!(stmt.op, Op::UseLengthUnits(_))).any(asks);
     (same && !early).then_some(unit)

@@ -1,8 +1,8 @@
 //! Variables as the target has them: names, words that round by themselves or do not, and values that are there before
 //! they are read.
 //!
-//! Which variable becomes which is told in `names`: it depends on the program and on the two controls alone, and on
-//! nothing that another translation has done. Where the target does not know of variables without a value, what the
+//! Which variable becomes which is reported in `names`: it depends on the program and on the two controls alone, and on
+//! nothing that another translation has done. Where the target does not know of empty variables, what the
 //! program decides by that is decided here (`empty_variables`).
 //!
 //! Refused: a variable that may or may not have a value where it is read, for such a target; one for which the target
@@ -51,7 +51,7 @@ pub fn run(
     Digits { decimals, increments, seconds }: Digits,
     diags: &mut Vec<Diagnostic>,
 ) -> Renamed {
-    // A language takes what is said in it as it is.
+    // A language takes what is stated in it as it is.
     let own = from == computes;
     if !own || computes.handed != Handed::Names {
         references::copied(program);

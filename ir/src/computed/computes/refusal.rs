@@ -61,7 +61,7 @@ impl Computes {
         Some(refuse(RunTimeFlow::CallOwnDepth, at))
     }
 
-    /// The first place that cannot be said.
+    /// The first place that cannot be stated.
     pub fn refusal<'c>(&'c self, program: &'c Program) -> Option<Diagnostic> {
         let references = match self.handed {
             Handed::Names => program.procedures.iter().flat_map(|procedure| &procedure.parameters).collect(),

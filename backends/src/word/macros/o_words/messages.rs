@@ -10,7 +10,7 @@ use crate::common::Sink;
 use crate::common::fault::{cannot, cannot_compute};
 use crate::word::Writer;
 
-/// Digits of values in a message where nothing is said, and of `%f`.
+/// Digits of values in a message where nothing is stated, and of `%f`.
 const DIGITS: u8 = 6;
 const FLOAT_DIGITS: u8 = 4;
 
@@ -73,7 +73,7 @@ impl Writer {
         }
         let text = &alarm.text;
         let signs = [&rules.open[..], &rules.close];
-        // The reader has no values in alarms, whatever stands behind the sign.
+        // The reader has no values in alarms, whatever stands after the sign.
         if text.contains('#') || signs.iter().any(|sign| text.contains(sign)) || !text.chars().all(shows) {
             return Err(cannot(OperatorLack::AlarmCharacters));
         }

@@ -208,7 +208,7 @@ fn program(side: usize, found: &Found, sides: &mut [Side; 2], call: &Call) -> io
     })
 }
 
-/// What was taken for granted of a program, each thing once.
+/// What was assumed of a program, each thing once.
 #[derive(Default)]
 struct Told {
     assumed: Vec<Assumed>,
@@ -251,7 +251,7 @@ impl Told {
     }
 }
 
-/// The fact at power-on that is taken for granted.
+/// The fact at power-on that is assumed.
 fn fact(fault: &Fault) -> Option<ModeName> {
     match fault {
         Fault::AssumedMode { fact, .. } => Some(*fact),

@@ -200,7 +200,7 @@ impl Lower {
         if let Some(first) = body.first_mut() {
             first.joined = false;
         }
-        // Tables that a loop only fills count behind it, when the offset in force is called up again.
+        // Tables that a loop only fills count after it, when the active offset is activated again.
         let fills =
             stale && matches!(what, StructureKind::While(_) | StructureKind::For { .. }) && only_sets(&body);
         self.stale = stale && !fills;

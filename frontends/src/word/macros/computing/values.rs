@@ -126,7 +126,7 @@ impl Lower {
         })
     }
 
-    /// To how many digits a length is rounded, in the units in force.
+    /// To how many digits a length is rounded, in the active units.
     pub(in crate::word) fn digits_of(&mut self, quantity: Quantity, at: Span, out: &mut Batch) -> Option<u8> {
         let rules = self.rules[quantity as usize];
         let units = self.units(at, out);

@@ -1,4 +1,4 @@
-//! Bodies of decisions and loops: how they are opened, closed and left.
+//! Bodies of branches and loops: how they are opened, closed and left.
 
 use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::Fault;
@@ -71,7 +71,7 @@ impl Lower {
             self.o.open.iter().rev().filter(|open| !matches!(open.kind, StructureKind::If { .. }));
         let inner = loops.next();
         let what = match inner {
-            // What is passed over behind a `continue` is looked through for the loop's label, and a `break` with it
+            // What is passed over after a `continue` is looked through for the loop's label, and a `break` with it
             // is taken for one that is made (interp_o_word.cc); a `while` goes on all the same.
             Some(OpenStructure { kind: StructureKind::Do, label: own, turned: true, .. })
                 if **own == *label && word == FlowWord::Break =>
@@ -114,7 +114,7 @@ impl Lower {
         self.push(span, op, out);
     }
 
-    /// A break of `while` leaves its mark set, by which the next loop of `do` is left behind its first turn
+    /// A break of `while` leaves its mark set, by which the next loop of `do` is left after its first turn
     /// (interp_o_word.cc, `doing_break`).
     fn check_break(&mut self, at: Span, out: &mut Batch) {
         if self.o.left.is_some() && self.o.does.is_some() {
@@ -123,7 +123,7 @@ impl Lower {
         }
     }
 
-    /// A continue of `do` leaves its mark set as well, by which the next loop of `repeat` is begun anew at its end
+    /// A continue of `do` leaves its mark set as well, by which the next loop of `repeat` is begun again at its end
     /// (run: a `repeat [3]` made six turns).
     fn check_continue(&mut self, at: Span, out: &mut Batch) {
         if self.o.turned.is_some() && self.o.repeats.is_some() {
@@ -132,7 +132,7 @@ impl Lower {
         }
     }
 
-    /// The next branch of a decision, with its condition if it has one; whether there is such a decision.
+    /// The next branch of an IF, with its condition if it has one; whether there is such an IF.
     pub(super) fn next_branch(
         &mut self,
         label: &str,
@@ -191,7 +191,7 @@ impl Lower {
     }
 }
 
-/// Decisions one within the other.
+/// Branches one within the other.
 fn decision_of(
     before: Vec<(Expr, Vec<Stmt>)>,
     now: Option<Expr>,

@@ -1,4 +1,4 @@
-//! Arcs that two controls make alike, so that one execution stands for both.
+//! Arcs that two controls make alike, so that one execution counts for both.
 //!
 //! ```text
 //! source: G3 X20. Y0. I10. | output: G3 X20 Y0 I10    the same arc, if both controls accept it
@@ -11,9 +11,9 @@
 //! is a little too short for half a circle. So the arc that the source's rule makes is judged by the target's rule as well,
 //! from the same numbers: its radii, or the centre that comes of its radius. Where the target's rule says anything else,
 //! nothing stands for both, and both controls execute the piece by themselves. Two controls that agree before an arc agree
-//! behind it, since its end, its direction and the motion are made of the same numbers.
+//! after it, since its end, its direction and the motion are made of the same numbers.
 //!
-//! Not here: arcs with turning axes or incremental words, and those of another form than [`Op::ArcFeed`]. They are left to
+//! Not here: arcs with rotary axes or incremental words, and those of another form than [`Op::ArcFeed`]. They are left to
 //! execution.
 
 use crate::Exec;
@@ -52,7 +52,7 @@ impl Beside {
     }
 }
 
-/// Whether all words are of linear axes and count from zero, unless the mode in force says otherwise.
+/// Whether all words are of linear axes and count from zero, unless the active mode says otherwise.
 fn is_plain(to: &Point) -> bool {
     const FIRST_TURNING: usize = 3;
     let absolute = |word: &ncc_ir::program::Coord| word.distance.or(Distance::Absolute) == Distance::Absolute;
@@ -188,7 +188,7 @@ mod tests {
         stmts.iter().try_for_each(|stmt| exec.step(stmt, &mut events)).ok().map(|()| events)
     }
 
-    /// Where one execution is said to stand for both, two executions make the same events, and the controls agree behind
+    /// Where one execution is said to stand for both, two executions make the same events, and the controls agree after
     /// them. That is so with most arcs of two rules, and not with those of which one rule says something else.
     #[test]
     fn arcs_that_pass_are_the_same_events() {

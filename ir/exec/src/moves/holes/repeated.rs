@@ -5,12 +5,12 @@
 //! X10. Y20. / X30. / Y5. / … / X0. Y0.    the first two and the last are executed, those between are counted
 //! ```
 //!
-//! Why that comes to the same: [`Exec::make_hole`] leaves the tool at the level to return to, so every hole behind the
+//! Why that gives the same: [`Exec::make_hole`] leaves the tool at the level to return to, so every hole after the
 //! first begins at the same level, in the same state, and takes the same way: what it makes hangs on where it is alone.
 //! That is one move in the plane, which is no event where the tool is there already, and around it the same moves along
-//! the axis, dwells and the like. So the holes behind one that went somewhere are known by where they are, and the last
+//! the axis, dwells and the like. So the holes after one that went somewhere are known by where they are, and the last
 //! one, which is executed again, leaves the state as all of them do. What is not so plain (a frame that turns, a feed
-//! that counts for one move, a spindle that stands or that the cycle stops) is executed one by one.
+//! that counts for one move, a spindle that is stopped or that the cycle stops) is executed one by one.
 
 use super::Way;
 use crate::moves::lines::valued::Stroke;
@@ -31,14 +31,14 @@ pub(super) fn place_of(stmt: &Stmt) -> Option<&Point> {
     }
 }
 
-/// Holes of which the words have their values already: worked out once, for all controls that make them.
+/// Holes of which the words have their values already: computed once, for all controls that make them.
 #[derive(Clone, Debug)]
 pub struct ValuedHoles {
     /// The axes that each one names, a bit each, and their values.
     holes: Vec<(u8, [Nanos; 3])>,
     /// The axes that any of them names.
     named: u8,
-    /// The unit in which they were worked out.
+    /// The unit in which they were computed.
     inch: bool,
 }
 
@@ -56,7 +56,7 @@ impl ValuedHoles {
         self.inch
     }
 
-    /// Where the holes are behind the first `made` ones, from where these have led.
+    /// Where the holes are after the first `made` ones, from where these have led.
     pub(super) fn places(&self, made: usize, from: [Nanos; AXES]) -> impl Iterator<Item = [Nanos; AXES]> {
         let mut at = from;
         self.holes.iter().skip(made).map(move |(named, values)| {
@@ -78,7 +78,7 @@ struct Before {
 }
 
 impl Exec {
-    /// The values of holes for this control, and for all that have the same unit in force; `None` where one of the
+    /// The values of holes for this control, and for all that have the same active unit; `None` where one of the
     /// statements is no hole at a place of plain words, or counts from the last one.
     pub fn value_holes(&self, stmts: &[Stmt]) -> Option<ValuedHoles> {
         let (mut holes, mut all) = (Vec::with_capacity(stmts.len()), 0);
@@ -118,7 +118,7 @@ impl Exec {
             }
             made += 1;
             is_at(self.position);
-            // The first one may begin at another level than those behind it.
+            // The first one may begin at another level than those after it.
             let went = made > 1 && before.at != self.position;
             if let Some(valued) = valued.take_if(|valued| went && self.repeats(valued)) {
                 self.repeat(valued, made, &before, &mut is_at);
@@ -128,7 +128,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Whether the hole that was made last stands for all behind it.
+    /// Whether the hole that was made last stands for all after it.
     fn repeats(&self, valued: &ValuedHoles) -> bool {
         let Some(cycle) = self.cycle.as_ref().filter(|_| self.makes_holes_anywhere()) else { return false };
         let straight = self.chain.is_none() && self.machine() == self.last;
@@ -247,7 +247,7 @@ mod tests {
         for op in start.into_iter().chain(begin.iter().cloned()).chain([cycle]) {
             exec.step(&stmt(op), &mut Vec::new()).expect("a plain program");
         }
-        // What holes rely on is seen anew.
+        // What holes rely on is seen again.
         exec.outlived = crate::run::left::Outlived::default();
         exec
     }
@@ -285,7 +285,7 @@ mod tests {
         }))
     }
 
-    /// Places, events, strokes and the state behind them are those of holes that are executed one by one; or both fail.
+    /// Places, events, strokes and the state after them are those of holes that are executed one by one; or both fail.
     #[test]
     fn holes_that_are_counted_do_what_each_of_them_does() {
         let begins: [&[Op]; 7] = [

@@ -1,18 +1,18 @@
-//! Holes that two controls make alike, so that one execution stands for both.
+//! Holes that two controls make alike, so that one execution counts for both.
 //!
 //! ```text
 //! source: X10. Y20. under G81 | output: X10 Y20 under MCALL CYCLE81    the same strokes at the same place
 //! ```
 //!
 //! Why that proves the same as two executions: [`Exec::make_hole`] is the same code for both controls. It makes events of
-//! the control's state, of what the cycle in force comes to (its planes, its strokes and dwells, the level to return to
+//! the control's state, of the active cycle's effect (its planes, its strokes and dwells, the level to return to
 //! and how the way to the hole begins), and of where the hole is; of nothing else. The control's own parameters, such as
 //! the clearance of pecks, are in the strokes when the cycle begins. So where two states agree in all but the words of the
-//! cycle, both cycles come to the same ([`Moves`]), and the hole is at the same place of the program,
-//! both controls make the same events. They come to states that agree again, as the state behind a hole is made of the same
-//! things; and the cycles still come to the same, as the tool then stands at the level to return to, from which the way to
+//! cycle, both cycles give the same ([`Moves`]), and the hole is at the same place of the program,
+//! both controls make the same events. They reach states that agree again, as the state after a hole is made of the same
+//! things; and the cycles still give the same, as the tool then stands at the level to return to, from which the way to
 //! the next hole begins alike too. What is not so plain (a length that waits, a change of frame that words include,
-//! incremental words, turning axes, a cycle that stops the spindle) is left to execution.
+//! incremental words, rotary axes, a cycle that stops the spindle) is left to execution.
 
 use super::repeated::{ValuedHoles, place_of};
 use super::{ActiveCycle, Way};
@@ -25,14 +25,14 @@ use ncc_ir::program::Stmt;
 use ncc_ir::program::cycle::Leg;
 use ncc_ir::source::Span;
 
-/// What a cycle comes to at each of its holes.
+/// The effect of a cycle at each of its holes.
 #[derive(Debug, PartialEq)]
 struct Moves {
     plane: Plane,
     retract: Nanos,
     depth: Nanos,
     out_to: Nanos,
-    /// How the way begins to the next hole, and to all behind it.
+    /// How the way begins to the next hole, and to all after it.
     legs: [Leg; 2],
     way: Way,
 }
@@ -66,18 +66,18 @@ impl Exec {
         self.has_cycle_like(other) && self.agrees_beside_cycle(other)
     }
 
-    /// Whether the cycles in force on both controls come to the same.
+    /// Whether the active cycles on both controls give the same.
     pub fn has_cycle_like(&self, other: &Exec) -> bool {
         let moves = self.moves_of_holes();
         moves.is_some() && moves == other.moves_of_holes()
     }
 
-    /// Whether the holes of the cycle in force hang on nothing else than where they are.
+    /// Whether the holes of the active cycle hang on nothing else than where they are.
     pub(super) fn makes_holes_anywhere(&self) -> bool {
         self.moves_of_holes().is_some()
     }
 
-    /// What the cycle in force comes to, if its holes hang on nothing else than where they are.
+    /// The effect of the active cycle, if its holes hang on nothing else than where they are.
     fn moves_of_holes(&self) -> Option<Moves> {
         let cycle = self.cycle.as_ref().filter(|_| self.makes_plain_holes())?;
         let &ActiveCycle { plane, retract, depth, approach, initial, way, .. } = cycle;
@@ -109,7 +109,7 @@ impl Exec {
             && self.detour.is_none()
     }
 
-    /// Whether these are holes at these places, under the cycle in force; `false` where that is not plain to see.
+    /// Whether these are holes at these places, under the active cycle; `false` where that is not plain to see.
     pub fn has_holes_at(&mut self, holes: &ValuedHoles, places: &[[Nanos; AXES]]) -> bool {
         let Some(normal) = self.cycle.as_ref().map(|cycle| cycle.plane.axes().2 as usize) else {
             return false;
@@ -158,7 +158,7 @@ mod tests {
         }))
     }
 
-    /// Cycles that differ from each other, and some that come to the same in other words.
+    /// Cycles that differ from each other, and some that give the same in other words.
     fn cycles() -> Vec<Cycle> {
         let stop = BoreStop { turn: None, dwell: None, stop: false, after: None };
         let kinds = [
@@ -188,7 +188,7 @@ mod tests {
         all
     }
 
-    /// A control with a cycle in force, whose clearance of pecks is so much.
+    /// A control with an active cycle, whose clearance of pecks is so much.
     fn control(cycle: &Cycle, clearance: Nanos) -> Exec {
         in_world(&World { peck_clearance: clearance, ..World::generate(1, &Modes::default()) }, cycle)
     }
@@ -216,7 +216,7 @@ mod tests {
     }
 
     /// Where two controls are said to make the same holes, two executions make the same events, and they are in such states
-    /// again behind each hole.
+    /// again after each hole.
     #[test]
     fn holes_that_pass_are_the_same_events() {
         let holes: Vec<Stmt> = (0..4).map(|n| hole(n * 1_500, n * n * 700)).collect();

@@ -4,13 +4,13 @@
 //! source: X10. Y20. under MCALL CYCLE81 | output: G0 X10. Y20. / G0 Z2. / G1 Z-20. / G0 Z5.    four straight moves each
 //! ```
 //!
-//! Both controls execute what they are told, for the effect on their own states, and what is held against each other are
+//! Both controls execute their statements, for the effect on their own states, and what is held against each other are
 //! not their events but the moves that make these: whether each cuts, and where in the program it ends ([`Stroke`]).
 //!
 //! Why that proves as much: an event is made of its kind, of where it ends in the machine, of the feed and of the state
 //! ([`Exec::emit_move`], for holes and for lines). Holes that are straight moves alone, and lines, change the position and
 //! nothing else of that. So where two states agree in frames, feed and state before them, and where the machine stands,
-//! they do so behind each move; a place of the program is then one place of the machine, and two moves of one kind to one
+//! they do so after each move; a place of the program is then one place of the machine, and two moves of one kind to one
 //! place are the same event, or none where the machine stands there already. What is not so plain is left to a comparison
 //! of events: dwells, boring and tapping, which are no straight moves or have another feed; whatever [`Exec::takes_lines`]
 //! and [`Exec::makes_plain_holes`] leave aside.
@@ -50,7 +50,7 @@ impl Exec {
         self.strokes.as_ref().map_or(0, |strokes| strokes.kept.len())
     }
 
-    /// The strokes that are kept behind the first so many.
+    /// The strokes that are kept after the first so many.
     pub(super) fn strokes_from(&self, first: usize) -> &[Stroke] {
         let kept = self.strokes.as_ref().and_then(|strokes| strokes.kept.get(first..));
         kept.unwrap_or_default()
@@ -83,7 +83,7 @@ impl Exec {
         passed.map(|()| strokes.filter(|strokes| strokes.alone).map(|strokes| strokes.kept))
     }
 
-    /// Whether holes of the cycle in force here, and lines along the same strokes on another control, are the same events,
+    /// Whether holes of the active cycle here, and lines along the same strokes on another control, are the same events,
     /// and leave both in states of which that is so again.
     pub fn makes_strokes_of(&self, other: &Exec) -> bool {
         let Some(cycle) = self.cycle.as_ref().filter(|_| other.cycle.is_none()) else { return false };

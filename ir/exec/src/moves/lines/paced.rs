@@ -4,14 +4,14 @@
 //! source: G94 G1 X10. A90. F100. | output: G93 G1 X10 A90 F1.104    one end point, reached in one time
 //! ```
 //!
-//! Both controls execute what they are told, for the effect on their own states. Instead of their events, what these are
+//! Both controls execute their statements, for the effect on their own states. Instead of their events, what these are
 //! made of is compared ([`PacedMove`]): whether a move is rapid, where it ends in the machine, its feed, and what that counts.
 //!
-//! Why that proves as much: the event of a line is made of these, of the unit in force, and of the state
+//! Why that proves as much: the event of a line is made of these, of the active unit, and of the state
 //! ([`Exec::emit_move`]). Lines change position, feed and feed mode, and nothing else of the state, where
 //! [`Exec::takes_paced`] holds. So two controls that agree in all but feed and feed mode before them ([`Exec::paces_as`]) do
-//! so behind each move that ends at one place, and all that may differ between two events is compared. How far an
-//! axis turns, and how F counts, each control works out by its own rules, in the code that also makes the event.
+//! so after each move that ends at one place, and all that may differ between two events is compared. How far an
+//! axis turns, and how F counts, each control computes by its own rules, in the code that also makes the event.
 //!
 //! Not here: incremental words, arcs, and directions of rotary axes that a word states. They are left to [`Exec::step`].
 
@@ -36,7 +36,7 @@ struct Line {
 enum Does {
     /// Goes along a line at feed, or rapidly: the axes that are named, a bit each.
     Goes(u8, Motion),
-    /// The same by the motion in force.
+    /// The same by the active motion.
     GoesOn(u8),
     Feeds,
     Counts(FeedMode),
@@ -47,12 +47,12 @@ enum Does {
 #[derive(Clone, Debug)]
 pub struct PacedLines {
     lines: Vec<Line>,
-    /// The unit in which they were worked out.
+    /// The unit in which they were computed.
     inch: bool,
 }
 
 impl PacedLines {
-    /// Whether they were worked out in inches.
+    /// Whether they were computed in inches.
     pub fn inch(&self) -> bool {
         self.inch
     }
@@ -92,7 +92,7 @@ impl Exec {
         self.takes_paced() && other.takes_paced() && self.agrees_beside_feed(other)
     }
 
-    /// The values of lines for this control, and for all that have the same unit in force; `None` where statements are
+    /// The values of lines for this control, and for all that have the same active unit; `None` where statements are
     /// anything but lines by words from zero, feeds and feed modes, or where none of them turns a rotary axis.
     pub fn value_paced(&self, stmts: &[Stmt]) -> Option<PacedLines> {
         if !stmts.iter().any(turns) || !self.takes_paced() {
@@ -338,7 +338,7 @@ mod tests {
         assert!(executed > 3_000 && left > 100 && timed > 1_000, "{executed} {left} {timed}");
     }
 
-    /// A control asks what F counts with rotary axes only where it was said before that lines come to that.
+    /// A control asks what F counts with rotary axes only where it was known before that lines reach that.
     #[test]
     fn lines_come_to_what_they_ask() {
         let bit = Behaviour::RotaryFeed.bit();

@@ -1,4 +1,4 @@
-//! Lines of a table for somebody who is told each of them: what the first one makes, a step tells; those behind it differ
+//! Lines of a table for a listener that gets each of them: what the first one makes, a step tells; those after it differ
 //! from it in their place alone.
 //!
 //! ```text
@@ -7,7 +7,7 @@
 //! X7. Y1.         at X7 Y1
 //! ```
 //!
-//! Not here: lines of which nobody is told (`valued`).
+//! Not here: lines without a listener (`valued`).
 
 use crate::moves::lines::valued::Course;
 use crate::{Event, Exec, Kind};
@@ -48,7 +48,7 @@ impl Exec {
             && self.machine() == self.last
     }
 
-    /// Whether lines behind one that has made this event take this control where they take another one, but for where its
+    /// Whether lines after one that has made this event take this control where they take another one, but for where its
     /// zero is in the machine.
     pub fn goes_along_with(&self, other: &Exec, last: &Event) -> bool {
         let (own, mut theirs) = (self.start_of_course(), other.start_of_course());
@@ -57,8 +57,8 @@ impl Exec {
         own == theirs && self.goes_on_as(last)
     }
 
-    /// The way along the first rows that go as the last line went, which has made this event, and state no feed: `tell` is
-    /// told each, with its end in the program and in the machine. `None` where a line would make another event.
+    /// The way along the first rows that go as the last line went, which has made this event, and state no feed: `tell` gets each,
+    ///  with its end in the program and in the machine. `None` where a line would make another event.
     pub fn way_along(
         &self,
         rows: Rows,
@@ -231,7 +231,7 @@ mod tests {
         (events, many, false)
     }
 
-    /// Those that go along leave the state that steps leave, and are told as these tell it; so are those that go with them.
+    /// Those that go along leave the state that steps leave, and are reported as these tell it; so are those that go with them.
     #[test]
     fn lines_along_their_way_are_told_as_by_steps() {
         let to = |x| {

@@ -1,10 +1,10 @@
-//! Lines whose words have their values already: worked out once, for all controls that execute them.
+//! Lines whose words have their values already: computed once, for all controls that execute them.
 //!
 //! ```text
 //! X10. F200.    under 64 settings of the block-skip switches in two worlds: two values, not 256
 //! ```
 //!
-//! A value hangs on the word and on the unit in force alone (`Exec::plain_value`). Anything that is not so plain, and each
+//! A value hangs on the word and on the active unit alone (`Exec::plain_value`). Anything that is not so plain, and each
 //! fault, is left to [`Exec::pass`]: nothing is done then.
 
 use crate::{Exec, Heading, MOTION, Z};
@@ -28,7 +28,7 @@ struct Valued {
 enum Does {
     /// Goes along a line at feed, or rapidly: the axes that are named, a bit each.
     Goes(u8, Motion),
-    /// The same by the motion in force.
+    /// The same by the active motion.
     GoesOn(u8),
     Feeds,
     Nothing,
@@ -38,7 +38,7 @@ enum Does {
 #[derive(Clone, Debug)]
 pub struct ValuedLines {
     lines: Vec<Valued>,
-    /// The unit in which they were worked out.
+    /// The unit in which they were computed.
     inch: bool,
     /// How controls have gone along them.
     courses: Vec<Course>,
@@ -87,7 +87,7 @@ pub struct Stroke {
 }
 
 impl ValuedLines {
-    /// Whether these lines are these strokes, on a control from where it stands; not if any of them can be skipped, or says
+    /// Whether these lines are these strokes, on a control from where it stands; not if any of them is under block skip, or says
     /// a feed.
     pub(crate) fn go_along(&self, exec: &Exec, strokes: &[Stroke]) -> bool {
         let (mut at, mut motion) = (exec.position, exec.modes.motion);
@@ -122,7 +122,7 @@ impl ValuedLines {
 }
 
 impl Exec {
-    /// The values of lines for this control, and for all that have the same unit in force; `None` where statements are
+    /// The values of lines for this control, and for all that have the same active unit; `None` where statements are
     /// anything but plain lines by words from zero, or this control would not take them so.
     pub fn value_lines(&self, stmts: &[Stmt]) -> Option<ValuedLines> {
         if !self.takes_timed_lines() {
@@ -233,7 +233,7 @@ impl Exec {
     }
 
     /// Whether two controls make the same events of rows of a table, which count from zero and which no level of block skip
-    /// leaves out: one execution stands for both then.
+    /// leaves out: one execution counts for both then.
     pub fn agrees_on_rows(&self, other: &Exec) -> bool {
         self.counts_absolute()
             && other.counts_absolute()
@@ -299,7 +299,7 @@ impl Exec {
                 last != before
             };
             events += u64::from(goes);
-            // Behind the first move the machine stands where the program does.
+            // After the first move the machine stands where the program does.
             (stands, moved) = (true, true);
             named_all |= named;
             if by_time && goes && motion == Motion::Feed {
@@ -313,7 +313,7 @@ impl Exec {
     }
 
     pub(super) fn take_course(&mut self, course: &Course, inch: bool) -> u64 {
-        // What a statement does to messages, it does no more behind the second one.
+        // What a statement does to messages, it does no more after the second one.
         (0..course.executed.min(2)).for_each(|_| self.shown.goes_on());
         self.feed = course.feed;
         if course.feed_said {

@@ -1,4 +1,4 @@
-//! Conditions, and their opposites without a word for it.
+//! Conditions, and opposites that the target lacks.
 
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Expr, Node, Unary};

@@ -164,7 +164,7 @@ impl Labels {
         within.pop();
     }
 
-    /// The place of the label to which a jump goes that stands behind so many labels: the next one of the name, else
+    /// The place of the label to which a jump goes that stands after so many labels: the next one of the name, else
     /// the first, of those that stand in a body in which the jump stands.
     fn reached(&self, name: &str, behind: usize, within: &[usize]) -> Option<usize> {
         let places = self.found.get(name)?;
@@ -211,7 +211,7 @@ impl Renaming<'_> {
     }
 }
 
-/// Of labels one behind the other, jumps go to the first, and the others are gone: those alone that stand in blocks
+/// Of labels one after the other, jumps go to the first, and the others are gone: those alone that stand in blocks
 /// of their own and that this has made.
 pub(super) fn one_label_a_place(body: &mut Vec<Stmt>) {
     let mut names = BTreeMap::new();

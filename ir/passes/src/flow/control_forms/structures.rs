@@ -1,8 +1,8 @@
-//! Jumps made into decisions and loops, for a target that has none.
+//! Jumps made into branches and loops, for a target that has none.
 //!
-//! A jump back makes a loop of what it goes over; a jump ahead, in a decision, makes what it goes over the decision's
-//! other branch. What jumps out of a loop leaves it; where it goes further than behind the loop, or from within a
-//! branch, a variable of its own says so, and behind the loop or the decision the jump is made by that. Nothing is
+//! A jump back makes a loop of what it goes over; a jump ahead, in a branch, makes what it goes over the branch's
+//! other branch. What jumps out of a loop leaves it; where it goes further than after the loop, or from within a
+//! branch, a variable of its own says so, and after the loop or the IF the jump is made by that. Nothing is
 //! executed in another order, or twice. A jump into the middle of a loop goes to its head, and on from there. One that a switch may skip stays.
 
 mod labels;
@@ -253,7 +253,7 @@ impl Structures<'_> {
         }
     }
 
-    /// A loop whose test stands behind its body and is jumped to from right before it: the test comes first.
+    /// A loop whose test stands after its body and is jumped to from right before it: the test comes first.
     fn tested_first(&mut self, list: &mut Vec<Stmt>, first: usize, last: usize, head: &Text) -> bool {
         let entry = match first.checked_sub(1).map(|before| &list[before]) {
             Some(Stmt { op: Op::Goto(to), skip: None, .. }) => to.clone(),
@@ -341,7 +341,7 @@ impl Structures<'_> {
         list.extend(rest);
     }
 
-    /// Jumps ahead make the other branches of decisions.
+    /// Jumps ahead make the other branches of IFs.
     fn forward(&mut self, list: &mut Vec<Stmt>, behind: &BTreeSet<Text>) {
         while self.put_in(list) {}
         let mut at = 0;
@@ -364,7 +364,7 @@ impl Structures<'_> {
                 }
                 _ => false,
             };
-            // A decision is looked at again, until it has no jumps.
+            // A branch is looked at again, until it has no jumps.
             at += usize::from(!done);
         }
     }
@@ -420,13 +420,13 @@ impl Structures<'_> {
         true
     }
 
-    /// A decision with a jump in a branch.
+    /// An IF with a jump in a branch.
     fn decision(&mut self, list: &mut Vec<Stmt>, at: usize, behind: &BTreeSet<Text>) -> bool {
         let here = at_place(list, at + 1, behind);
         let span = list[at].span;
         let Op::Control(control) = &mut list[at].op else { return false };
         let Control::If { then, otherwise, .. } = &mut **control else { return false };
-        // To right behind it.
+        // To right after it.
         for branch in [&mut *then, &mut *otherwise] {
             *branch = self.list(std::mem::take(branch), &here);
         }
@@ -471,7 +471,7 @@ impl Structures<'_> {
             other.extend(moved);
             return true;
         }
-        // From within a branch: said by a variable, and made behind the decision.
+        // From within a branch: said by a variable, and made after the IF.
         let known: BTreeSet<Text> = labels(list).into_iter().chain(behind.iter().cloned()).collect();
         let here = |name: &Text| known.contains(name) && position(list, name).is_none_or(|to| to > at);
         let found: Vec<Text> = jumps.iter().flatten().filter(|name| here(name)).cloned().collect();
@@ -507,7 +507,7 @@ impl Structures<'_> {
     }
 }
 
-/// Decisions of which only the other branch is left.
+/// IFs of which only the other branch is left.
 fn turn_round(body: &mut [Stmt], word: bool) {
     for stmt in body {
         let Op::Control(control) = &mut stmt.op else { continue };
@@ -534,7 +534,7 @@ fn when_set(span: Span, flag: &Var, number: i64, label: Text) -> Stmt {
     Stmt::new(span, Op::Control(Box::new(Control::If { condition, then, otherwise: Vec::new() })))
 }
 
-/// Whether a switch may skip a jump, or a decision with one.
+/// Whether a switch may skip a jump, or a branch with one.
 fn skipped(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| {
         let within = match &stmt.op {
@@ -545,7 +545,7 @@ fn skipped(body: &[Stmt]) -> bool {
     })
 }
 
-/// The condition of a decision that does nothing but this.
+/// The condition of a branch that does nothing but this.
 fn only(stmt: Option<&Stmt>, is: fn(&Op) -> bool) -> Option<&Expr> {
     let stmt = stmt.filter(|stmt| stmt.skip.is_none() && stmt.comment.is_none())?;
     let Op::Control(control) = &stmt.op else { return None };

@@ -1,13 +1,13 @@
-//! Functions that the target has no word for, worked out by decisions in blocks before the one that asks for them: the
-//! lesser and the greater of two values, rounding up where only cutting off is known, what a condition is worth where
-//! it is no number, the base of a power, which is written as a product, and angles by the arc cosine.
+//! Functions that the target lacks, computed by branches in blocks before the one that needs them: the
+//! lesser and the greater of two values, rounding up where only cutting off is known, the value of a condition where
+//! it is no number, the base of a power, which becomes a product, and angles by the arc cosine.
 //!
 //! `#1 = MAX[#2, #3]` is `#1 = #2` and `IF [#1 LT #3] THEN #1 = #3`: nothing is computed that the function does not
 //! compute. An angle that the target gives from 0 to a turn, as `#1 = ATAN[#2]/[#3]`, is taken back by a turn where it is
-//! more than half of one. Angles of sines and tangents are those of cosines where these are as fine as the numbers are, to 13 digits. A value that stands in a word, in a condition or among arguments is worked out in a
-//! variable of its own; what a loop asks before its turns is worked out before the loop and at the end of each turn.
+//! more than half of one. Sines and tangents use the arc cosine, to 13 digits. A value in a word, a condition or an
+//! argument gets its own variable. A loop condition is computed before the loop and at the end of each iteration.
 //!
-//! What stays as it is, and is refused as what it is: functions in blocks that can be skipped, or behind assignments in
+//! What stays as it is, and is refused as what it is: functions in blocks with block skip, or after assignments in
 //! the same block, and in conditions of loops of which a turn is left.
 
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ use ncc_ir::source::Span;
 /// How many digits a value has, and whether it may be negative.
 type Kind = (Option<u8>, bool);
 
-/// Works out what the target has no word for.
+/// Computes what the target lacks.
 pub(super) fn compute_missing_words(program: &mut Program, computes: &Computes, taken: &mut Names) {
     taken.read(program);
     let mut decimals = Decimals::from_program(program);
@@ -72,7 +72,7 @@ fn asks_control(stmt: &Stmt) -> bool {
     found
 }
 
-/// Shows the values of a statement that may be worked out before it. How often a body is executed is rounded by the
+/// Shows the values of a statement that may be computed before it. A repeat count is rounded by the
 /// control itself.
 fn values(op: &mut Op, seen: &mut dyn FnMut(&mut Expr)) {
     match op {
@@ -100,11 +100,11 @@ struct WorkedOut<'c> {
     computes: &'c Computes,
     decimals: &'c Decimals,
     taken: &'c mut Names,
-    /// The variables that are worked in. Each is read in the statement for which it is worked out alone.
+    /// The variables that are worked in. Each is read in the statement for which it is computed alone.
     own: &'c mut BTreeMap<(Kind, usize), Var>,
 }
 
-/// What is worked out before a statement.
+/// What is computed before a statement.
 #[derive(Default)]
 struct Before {
     stmts: Vec<Stmt>,
@@ -154,7 +154,7 @@ impl WorkedOut<'_> {
         out
     }
 
-    /// Puts what is worked out before the block of a statement, behind its label.
+    /// Puts what is computed before the block of a statement, after its label.
     fn put(&mut self, steps: Vec<Stmt>, mut stmt: Stmt, block: usize, out: &mut Vec<Stmt>) {
         if steps.is_empty() {
             return out.push(stmt);
@@ -184,7 +184,7 @@ impl WorkedOut<'_> {
         out.append(&mut rest);
     }
 
-    /// A variable that is given what one function is worth, worked out in that variable itself.
+    /// A variable that is given the value of one function, computed in that variable itself.
     fn assigned(&mut self, stmt: &mut Stmt) -> Option<Vec<Stmt>> {
         let Op::Assign(Target::Var(to), of) = &stmt.op else { return None };
         if stmt.joined || matches!(to, Var::System(_)) || of.reads(&Target::Var(to.clone())) {
@@ -210,7 +210,7 @@ impl WorkedOut<'_> {
         Some(steps)
     }
 
-    /// Loops: what is asked before each turn, behind each turn, or before all of them.
+    /// Loops: what is asked before each iteration, after each iteration, or before all of them.
     fn turns(&mut self, stmt: &mut Stmt, out: &mut Vec<Stmt>) {
         let span = stmt.span;
         if stmt.skip.is_some() || stmt.joined {
@@ -256,7 +256,7 @@ impl WorkedOut<'_> {
     /// The values of a statement.
     fn statement(&mut self, op: &mut Op, span: Span, before: &mut Before) {
         let truth = match op {
-            // A variable that is given what a condition is worth is a decision of its own.
+            // A variable set to the value of a condition is a branch of its own.
             Op::Assign(Target::Var(_), _) | Op::Declare(_) => true,
             Op::Control(control) => matches!(**control, Control::If { .. }),
             _ => false,
@@ -281,7 +281,7 @@ impl WorkedOut<'_> {
         }
     }
 
-    /// Whether a function is worked out.
+    /// Whether a function is computed.
     fn lacks(&self, function: Function) -> bool {
         let both_ways = self.computes.worth && self.has(Function::Floor) && self.has(Function::Ceiling);
         let up = self.has(Function::RoundUp) || self.has(Function::Ceiling) || both_ways;
@@ -298,7 +298,7 @@ impl WorkedOut<'_> {
         }
     }
 
-    /// Whether a function gives angles from 0 to a turn, of which those below zero are made by a decision.
+    /// Whether a function gives angles from 0 to a turn, of which those below zero are made by a branch.
     fn turns_round(&self, function: Function) -> bool {
         self.computes.turn && self.has(function) && matches!(function, Function::Asin | Function::Atan2)
     }
@@ -333,7 +333,7 @@ impl WorkedOut<'_> {
         self.own.entry(place).or_insert_with(|| self.taken.room(&self.computes.local)).clone()
     }
 
-    /// A number or a variable: else one that is worked out.
+    /// A number or a variable: else one that is computed.
     fn simple(&mut self, a: &Expr, before: &mut Before, span: Span) -> Expr {
         if is_simple(a) {
             return a.clone();
@@ -343,7 +343,7 @@ impl WorkedOut<'_> {
         value(&own)
     }
 
-    /// An angle from 0 to a turn, of one on both sides of zero that is worked out.
+    /// An angle from 0 to a turn, of one on both sides of zero that is computed.
     fn round(&mut self, e: &mut Expr, span: Span, before: &mut Before) -> bool {
         let turn = |e: &Expr| e.literal().is_some_and(|n| n.whole_number() == Some(360));
         let Expr::Node(node) = &mut *e else { return false };
@@ -376,7 +376,7 @@ impl WorkedOut<'_> {
         true
     }
 
-    /// Takes out of an expression what has to be worked out. `truth`: a condition can stand where it stands.
+    /// Takes out of an expression what has to be computed. `truth`: a condition can stand where it stands.
     fn expr(&mut self, e: &mut Expr, truth: bool, span: Span, before: &mut Before) {
         let was = e.clone();
         if self.round(e, span, before) {
@@ -444,7 +444,7 @@ impl WorkedOut<'_> {
         }
     }
 
-    /// Works out one function in a variable, of arguments that the target can say; `kind` is that of the first.
+    /// Computes one function in a variable, of arguments that the target can say; `kind` is that of the first.
     fn function(
         &mut self,
         (function, arguments): (Function, Vec<Expr>),
@@ -521,7 +521,7 @@ impl WorkedOut<'_> {
     }
 }
 
-/// Whether what is worked out before the whole block is worth the same there: nothing that stands in the block before
+/// Whether what is computed before the whole block has the same value there: nothing that stands in the block before
 /// the statement gives a variable a value, or leads elsewhere, or changes what the control is asked for.
 fn may_stand_behind(stmt: &Stmt, before: &[Stmt]) -> bool {
     let acts = before.iter().any(|stmt| !matches!(stmt.op, Op::Label(_)));
@@ -542,7 +542,7 @@ fn may_stand_behind(stmt: &Stmt, before: &[Stmt]) -> bool {
     !stmt.joined || !(before.iter().any(changes) || acts && asks_control(stmt))
 }
 
-/// Whether a turn of this loop is left for the next one.
+/// Whether an iteration of this loop is left for the next one.
 fn next_turn(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match &stmt.op {
         Op::NextTurn => true,

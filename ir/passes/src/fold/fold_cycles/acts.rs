@@ -26,11 +26,11 @@ pub(super) struct Acts<'s> {
     stmts: &'s [Stmt],
     /// How many statements have been read.
     pub(super) read: usize,
-    /// Where the tool stands after them.
+    /// Tool position after them.
     pub(super) at: Tracker,
-    /// The feed in force after them.
+    /// The active feed after them.
     pub(super) feed: Option<Num>,
-    /// Whether a feed has been said.
+    /// Whether a feed has been stated.
     pub(super) feed_said: bool,
     plane: Plane,
 }
@@ -76,7 +76,7 @@ impl<'s> Acts<'s> {
         }
     }
 
-    /// Whether a setting is in force already.
+    /// Whether a setting is active already.
     fn changes_nothing(&self, op: &Op) -> bool {
         let modes = &self.at.modes;
         match op {

@@ -1,4 +1,4 @@
-//! The feed in force, as far as the program says it.
+//! The active feed, as far as the program says it.
 
 use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Num;
@@ -8,7 +8,7 @@ use ncc_ir::program::kinds::{
 };
 use ncc_ir::program::{Op, Stmt};
 
-/// What a statement leaves in force; `None` is not known.
+/// What a statement leaves active; `None` is not known.
 pub(crate) fn after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
     let now = feed_after(&stmt.op, before);
     if stmt.skip.is_some() && now != before { None } else { now }
@@ -49,7 +49,7 @@ fn feed_after(op: &Op, before: Option<Num>) -> Option<Num> {
     }
 }
 
-/// Whether the feed in force counts before another is said.
+/// Whether the active feed counts before another is stated.
 pub(crate) fn counts(rest: &[Stmt]) -> bool {
     for stmt in rest {
         match &stmt.op {

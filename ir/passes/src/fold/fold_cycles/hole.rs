@@ -11,7 +11,7 @@ use ncc_ir::program::{Coord, Point};
 /// A hole.
 #[derive(Clone, Debug)]
 pub(super) struct Hole {
-    /// Words of its position; empty if it is made where the tool stands.
+    /// Words of its position; empty if it is made where the tool is.
     pub(super) to: Point,
     /// Level from which it is gone to.
     pub(super) from: Nanos,
@@ -209,7 +209,7 @@ pub(super) fn read(acts: &mut Acts<'_>, plane: Plane, reading: Reading) -> Resul
     }
 }
 
-/// A hole that is made where the tool stands says where that is.
+/// A hole that is made where the tool is says where that is.
 fn finish(mut hole: Hole, plane: Plane, acts: &Acts<'_>) -> Result<Hole, Unread> {
     let (first, second, _) = plane.axes();
     if hole.to.is_empty() {
@@ -338,7 +338,7 @@ struct Pecks {
     less: Option<Nanos>,
 }
 
-/// Pecks of one depth behind the first one, and what remains.
+/// Pecks of one depth after the first one, and what remains.
 fn alike(whole: &[Nanos], rest: Nanos) -> Option<Pecks> {
     let (first, further) = whole.split_first()?;
     let peck = match further {

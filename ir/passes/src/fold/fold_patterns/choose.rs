@@ -24,13 +24,13 @@ pub(super) struct Stretch<'t> {
     /// Nanos of a millimetre in the program's unit.
     of_unit: f64,
     spots: Vec<Spot>,
-    /// Half a unit of the last digit of each hole's words, nanos.
+    /// Half the least increment of each hole's words, nanos.
     half: u64,
     /// Digits after the point to which the holes are written.
     pub(super) digits: u8,
     /// Most digits after the point of a parameter.
     most: u8,
-    /// Whether the cycle can be called up again at another place.
+    /// Whether the cycle can be activated again at another place.
     leads_in: bool,
 }
 
@@ -193,7 +193,7 @@ impl<'t> Stretch<'t> {
         at.map(|v| absolute(exact(v, self.unit)))
     }
 
-    /// A pattern as a statement; it begins where the tool stands, if it can.
+    /// A pattern as a statement; it begins where the tool is, if it can.
     fn pattern(&self, shape: &Shape, begin: [Nanos; 2], walk: &Walk) -> Pattern {
         let caps = &self.target.caps;
         let (first, second, _) = plane(walk).unwrap_or(Plane::Xy).axes();
@@ -255,7 +255,7 @@ impl<'t> Stretch<'t> {
         Row { along, pitch: step.pitch.literal(self.unit).into(), count: count_u32(count) }
     }
 
-    /// Whether the target has words for a pattern, and it makes every hole where it is.
+    /// Whether the target supports a pattern, and it makes every hole where it is.
     fn stands(&self, pattern: &Pattern, holes: Range<usize>, walk: &Walk) -> bool {
         let mut there = walk.clone();
         let first = &self.holes[holes.start];
@@ -273,7 +273,7 @@ impl<'t> Stretch<'t> {
         same && sayable(&there, pattern, self.target)
     }
 
-    /// Whether a pattern that begins where the tool stands begins with this hole.
+    /// Whether a pattern that begins where the tool is begins with this hole.
     pub(super) fn begins(&self, pattern: &Pattern, hole: usize, walk: &Walk) -> bool {
         let places = walk.at.positions(pattern);
         let Some(first) = places.as_ref().and_then(|places| places.first()) else { return false };
@@ -285,7 +285,7 @@ fn count_u32(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
 
-/// Whether a pattern's first hole is where the tool stands.
+/// Whether a pattern's first hole is where the tool is.
 pub(super) fn begins_here(pattern: &Pattern) -> bool {
     match pattern {
         Pattern::Line { start, .. } | Pattern::Grid { start, .. } => start.is_none(),

@@ -32,11 +32,11 @@ pub(super) enum First {
 pub(super) struct Wanted {
     /// Most digits after the point.
     pub(super) most: u8,
-    /// A centre to try first: where the tool stands.
+    /// A centre to try first: where the tool is.
     pub(super) here: Option<[f64; 2]>,
-    /// How its first hole is said.
+    /// How its first hole is stated.
     pub(super) start: CircleStart,
-    /// Whether the centre must be where the tool stands.
+    /// Whether the centre must be where the tool is.
     pub(super) only_here: bool,
 }
 

@@ -1,8 +1,8 @@
 //! `fold-patterns`: positions of holes become circles, grids, lines and lists again.
 //!
 //! A stretch of holes that stand one after another under one cycle is looked through for the longest
-//! patterns that the target has words for. A pattern is taken only if its every hole, computed by
-//! the same rule that executes it, is within half a unit of the last digit that the program writes
+//! patterns that the target supports. A pattern is taken only if its every hole, computed by
+//! the same rule that executes it, is within half the least increment that the program writes
 //! of each coordinate; zeros at the end are often left out, so that this is at most half of a
 //! thousandth of a millimetre (of a tenth of a thousandth of an inch), or of what the target writes
 //! if that is coarser. So 15.588 is a point of the circle of radius 18. The order of the holes stays.
@@ -10,9 +10,9 @@
 //! Parameters are the simplest decimals with which that holds. Three or four holes are nearly always
 //! on some circle or other; such a circle, and a line or grid at an angle, is taken only if it takes
 //! no more digits to write than its holes. What is in no pattern stays, or becomes a list where the
-//! target has words for one that takes as many holes, from three on.
+//! target supports one that takes as many holes, from three on.
 //!
-//! Where a target's patterns begin where the tool stands, a traverse to the first hole is written
+//! Where a target's patterns begin where the tool is, a traverse to the first hole is written
 //! before the cycle: the same move that the cycle would make.
 //!
 //! Not looked through: holes that may be skipped, under a cycle in doubt, with a remark of their own
@@ -100,7 +100,7 @@ struct Hole {
     digits: [u8; 2],
 }
 
-/// A hole's place in the unit of the program, and half a unit of the last digit of each word.
+/// A hole's place in the unit of the program, and half the least increment of each word.
 #[derive(Clone, Copy, Debug)]
 struct Spot {
     at: [f64; 2],
@@ -119,7 +119,7 @@ impl Spot {
     }
 }
 
-/// The plane of the cycle in force.
+/// The plane of the active cycle.
 fn plane(walk: &Walk) -> Option<Plane> {
     if walk.at.cycle_in_doubt {
         return None;
@@ -127,7 +127,7 @@ fn plane(walk: &Walk) -> Option<Plane> {
     walk.at.plane(walk.at.cycle.as_ref()?.cycle.plane)
 }
 
-/// Where the tool stands in the plane.
+/// Tool position in the plane.
 fn here(walk: &Walk) -> Option<[Nanos; 2]> {
     let (first, second, _) = plane(walk)?.axes();
     Some([walk.at.position[first as usize]?, walk.at.position[second as usize]?])
@@ -268,8 +268,8 @@ fn put(
     made.replace(stmt.clone(), ops);
 }
 
-/// Whether a traverse to the first hole may stand before the cycle, which is then called up there:
-/// the cycle must come to the same planes, and go to the first hole at the same level.
+/// Whether a traverse to the first hole may stand before the cycle, which is then activated there:
+/// the cycle must give the same planes, and go to the first hole at the same level.
 fn may_lead_in(walk: &Walk) -> bool {
     let (Some(plane), Some(in_force)) = (plane(walk), &walk.at.cycle) else { return false };
     let level = walk.at.position[plane.axes().2 as usize];
@@ -291,7 +291,7 @@ fn lead_in(first_at: [Nanos; 2], walk: &Walk, made: &mut Rebuild, ops: &mut Vec<
     let called = made.out.iter().rposition(|stmt| matches!(stmt.op, Op::StartCycle(_)));
     let Some(called) = called else { return ops.push((false, traverse(to))) };
     if called + 1 == made.out.len() && made.out[called].skip.is_none() {
-        // It has just been called up: the traverse goes before it, in its own block.
+        // It has just been activated: the traverse goes before it, in its own block.
         let start = &mut made.out[called];
         let mut aside = Stmt::new(start.span, traverse(to));
         (aside.number, aside.joined) = (start.number.take(), start.joined);
@@ -303,8 +303,8 @@ fn lead_in(first_at: [Nanos; 2], walk: &Walk, made: &mut Rebuild, ops: &mut Vec<
     ops.extend([(false, traverse(to)), (false, start)]);
 }
 
-/// Whether nothing but holes and remarks has come since the cycle was called up, so that it can be
-/// called up again.
+/// Whether nothing but holes and remarks has come since the cycle was activated, so that it can be
+/// activated again.
 fn only_holes_since(made: &Rebuild) -> bool {
     let since = made.out.iter().rev().take_while(|stmt| !matches!(stmt.op, Op::StartCycle(_)));
     let holes = |op: &Op| matches!(op, Op::Hole(_) | Op::Pattern(_) | Op::Comment(_) | Op::Blank);

@@ -153,7 +153,7 @@ pub(super) struct Line {
 pub(super) enum Start {
     /// At the first hole, as it is written.
     First,
-    /// Where the tool stands.
+    /// Tool position.
     Here,
     /// There.
     At([Decimal; 2]),

@@ -1,6 +1,6 @@
-//! Slots as one chain of frames that begins anew: a shift, and a rotation about a point behind it.
+//! Slots as one chain of frames that begins again: a shift, and a rotation about a point after it.
 //!
-//! Each statement says the whole chain; so it must be known what is in force of the other slot. Refused by name: where
+//! Each statement says the whole chain; so it must be known what is active of the other slot. Refused: where
 //! it is not.
 
 use crate::frames::computed_frames::{Shift, Used, is_frame, is_zero, set, slot_of, stays};
@@ -11,7 +11,7 @@ use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Control, Coord, FrameSlot, FrameStep, Op, Slot, Stmt};
 use ncc_ir::run_time::ComputedFrame;
 
-/// What is in force of the slots that go into one chain; `None` is not known.
+/// What is active of the slots that go into one chain; `None` is not known.
 #[derive(Clone)]
 pub(super) struct Held {
     /// By how much each axis is shifted; one that is not is 0.
@@ -31,7 +31,7 @@ impl Held {
         }
     }
 
-    /// Where the blocks of a loop or a decision begin, and behind it: the shift is the one before it, if nothing in it
+    /// Where the blocks of a loop or a branch begin, and after it: the shift is the one before it, if nothing in it
     /// changes that.
     pub(super) fn across(&self, control: &Control, used: &Used) -> Held {
         let anew = Held::at_start(used, false);
@@ -39,7 +39,7 @@ impl Held {
         Held { shift: anew.shift.or_else(kept), turn: anew.turn }
     }
 
-    /// Behind a statement that is no frame. What is computed anew is another value than that in force.
+    /// After a statement that is no frame. What is computed again is another value than the active one.
     pub(super) fn behind(&mut self, op: &Op, used: &Used) {
         match op {
             flow!() | Op::Declare(_) => *self = Held::at_start(used, false),
@@ -54,7 +54,7 @@ impl Held {
         }
     }
 
-    /// All of it as a chain that begins anew.
+    /// All of it as a chain that begins again.
     fn chain(&self, used: &Used) -> Result<Vec<Op>, ComputedFrame> {
         let nothing = [const { None }; AXES];
         let shift = match &self.shift {
@@ -77,7 +77,7 @@ impl Held {
     }
 }
 
-/// Whether nothing in a loop or a decision changes a shift, nor what it was computed from.
+/// Whether nothing in a loop or a branch changes a shift, nor what it was computed from.
 fn keeps_across(control: &Control, axes: &Shift) -> bool {
     let counts = |variable: &Var| axes.iter().flatten().any(|by| by.reads(&Target::Var(variable.clone())));
     let counted = matches!(control, Control::For { variable, .. } if counts(variable));
@@ -94,7 +94,7 @@ fn keeps(body: &[Stmt], axes: &Shift) -> bool {
     })
 }
 
-/// A slot as a chain that begins anew, with what is in force of the other ones.
+/// A slot as a chain that begins again, with what is active of the other ones.
 pub(super) fn as_chain(op: &Op, used: &Used, held: &mut Held) -> Result<Vec<Op>, ComputedFrame> {
     match op {
         // What no block fills is empty.

@@ -35,21 +35,21 @@ pub(crate) fn has_frames(program: &Program, caps: &Caps) -> bool {
     program.procedures.iter().flat_map(|p| &p.body).any(unsaid) || takes_origin_back(program, caps)
 }
 
-/// Whether a subprogram sets or ends a shift of the origin that the target ends by the present point only:
-/// where that is, and whether a shift is in force, is known without calls.
+/// Whether a subprogram sets or ends a G92 shift that the target ends by the present point only:
+/// where that is, and whether a shift is active, is known without calls.
 pub(crate) fn shifts_origin_in_calls(program: &Program, caps: &Caps) -> bool {
     let shifts = |op: &Op| sets_origin(op) || ends_origin(op);
     takes_origin_back(program, caps)
         && program.procedures.iter().skip(1).flat_map(|p| &p.body).any(|s| shifts(&s.op))
 }
 
-/// Whether a program ends a shift of the origin for which the target has no word.
+/// Whether a program ends a G92 shift for which the target has no word.
 fn takes_origin_back(program: &Program, caps: &Caps) -> bool {
     let any = |of: fn(&Op) -> bool| program.procedures.iter().flat_map(|p| &p.body).any(|s| of(&s.op));
     caps.frames.origin_shift && !caps.frames.clears_shift && any(sets_origin) && any(ends_origin)
 }
 
-/// Whether there is no shift of the origin behind a statement.
+/// Whether no G92 shift is active after a statement.
 fn ends_origin(op: &Op) -> bool {
     matches!(op, Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(false))
 }

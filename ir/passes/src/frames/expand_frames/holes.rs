@@ -1,7 +1,7 @@
 //! Cycles and patterns under a frame: a pattern stays one where it can be turned as a whole, else it is
-//! written out, a hole at a time.
+//! expanded, a hole at a time.
 //!
-//! Refused by name: cycles whose drilling axis the frame turns, mirrors or scales.
+//! Refused: cycles whose drilling axis the frame turns, mirrors or scales.
 
 use crate::frames::expand_frames::now::value_of;
 use crate::frames::expand_frames::{Frames, NOTHING, cannot, leaves_alone};

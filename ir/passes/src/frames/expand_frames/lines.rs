@@ -1,4 +1,4 @@
-//! Lines where all frames in force are said: they stay as they are, and the tool is followed.
+//! Lines where all active frames are stated: they stay as they are, and the tool is followed.
 
 use ncc_exec::Chain;
 use ncc_ir::program::{Op, Stmt};
@@ -7,14 +7,14 @@ use super::{ExpandFramesState, Frames, Set};
 use crate::support::walk::Walk;
 
 impl ExpandFramesState {
-    /// Whether a frame is in force and leaves these statements as they are.
+    /// Whether a frame is active and leaves these statements as they are.
     pub(crate) fn leaves(&self, stmts: &[Stmt]) -> bool {
         self.framed.as_ref().is_some_and(|framed| framed.0.leaves(&framed.1, stmts))
     }
 }
 
 impl Set {
-    /// Whether statements are nothing but lines and feeds, and none of them needs to be changed: what is in force is said as
+    /// Whether statements are nothing but lines and feeds, and none of them needs to be changed: what is active is stated as
     /// it stands, no move is asked for both axes of a plane, and a word without a distance mode of its own has one.
     fn leaves(&self, inner: &Walk, stmts: &[Stmt]) -> bool {
         let line = |op: &Op| {

@@ -1,4 +1,4 @@
-//! `expand-frames`: frames are said in the target's own form (`frame_forms`), or worked into the
+//! `expand-frames`: frames are stated in the target's own form (`frame_forms`), or worked into the
 //! coordinates.
 //!
 //! A translation moves absolute words and leaves increments alone. Rotations, factors and mirrors are
@@ -6,7 +6,7 @@
 //! where the chain is one of translations, mirrors and quarter turns, else rounded to the target's
 //! digits. Positions must be known where axes are mixed. Words in machine coordinates stay.
 //!
-//! Refused by name: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
+//! Refused: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
 //! mirrors or scales, frames but local shifts that may be skipped, and frames under calls, jumps and repetitions.
 
 mod concerns;
@@ -69,9 +69,9 @@ const NOTHING: f64 = 1e-12;
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ExpandFramesState {
-    /// The frames in force, and where the tool stands in the program's own coordinates.
+    /// The active frames, and where the tool is in the program's own coordinates.
     framed: Option<Box<(Set, Walk, arc_form::ArcFormState)>>,
-    /// Whether a chain may be in force that the target says as it stands.
+    /// Whether a chain may be active that the target says as it stands.
     chained: bool,
 }
 
@@ -81,7 +81,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 }
 
 impl ExpandFramesState {
-    /// Whether a frame is in force.
+    /// Whether a frame is active.
     pub(crate) fn is_busy(&self) -> bool {
         self.framed.is_some()
     }
@@ -107,7 +107,7 @@ impl ExpandFramesState {
         }
     }
 
-    /// Facts that were taken for granted since.
+    /// Facts that were assumed since.
     pub(crate) fn assume(&mut self, assumed: &ncc_ir::canon::Modes) {
         if let Some(framed) = &mut self.framed {
             framed.1.assume(assumed);
@@ -142,12 +142,12 @@ pub(crate) fn expand_frames(
     state.framed = goes_on.then(|| Box::new((set, inner, arcs)));
 }
 
-/// What is in force.
+/// What is active.
 #[derive(Clone, Debug, PartialEq)]
 struct Set {
     /// What the program has set.
     slots: Slots,
-    /// What that amounts to, with the shift of the origin.
+    /// What that amounts to, with the G92 shift.
     whole: Chain,
     /// What of it coordinates must be changed by: all of it, or nothing.
     chain: Chain,
@@ -157,9 +157,9 @@ struct Set {
     said_chain: bool,
     /// A plane of which the next move must name both axes, absolutely.
     unplaced: Option<Plane>,
-    /// Whether what is in force depends on a block-skip switch; all of it has been said as it stood.
+    /// Whether what is active depends on a block-skip switch; all of it has been stated as it stood.
     lost: bool,
-    /// Frames that may be active instead of `slots`: a block-skip switch decides. All are shifts, and are said.
+    /// Frames that may be active instead of `slots`: a block-skip switch decides. All are shifts, and are stated.
     others: Vec<Slots>,
 }
 
@@ -178,19 +178,19 @@ impl Set {
 
 struct Frames<'f> {
     set: Set,
-    /// Where the tool stands as the program sees it.
+    /// Tool position as the program sees it.
     inner: Walk,
     /// Which way it came.
     arcs: arc_form::ArcFormState,
-    /// Where it stands as what is made sees it.
+    /// Tool position as what is made sees it.
     outer: &'f mut Walk,
     target: &'f Target,
-    /// Whether a chain may be in force that was said as it stood, before this pass had any business.
+    /// Whether a chain may be active that was stated as it stood, before this pass had any business.
     chained: bool,
 }
 
 impl Frames<'_> {
-    /// Whether a frame is in force, or what is made stands at a rounded place that a frame has left.
+    /// Whether a frame is active, or what is made stands at a rounded place that a frame has left.
     fn goes_on(&self) -> bool {
         self.set != Set::NONE || (0..3).any(|axis| self.is_rounded(axis))
     }
@@ -215,7 +215,7 @@ impl Frames<'_> {
             _ => false,
         };
         let shift = Op::ClearFrame(FrameSlot::Shift);
-        // Without words for it, a shift that is suspended is over, and set anew where it is taken up again.
+        // Without words for it, a shift that is suspended is over, and set again where it is restored.
         let said = match &stmt.op {
             Op::UseOriginShift(false) if !self.target.caps.frames.suspends_shift => shift.clone(),
             op => op.clone(),
@@ -236,7 +236,7 @@ impl Frames<'_> {
                         self.outer.step(&Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, op.clone()) });
                         self.note(op);
                     }
-                    // Where frames are said, what is made stands where the program does.
+                    // Where frames are stated, what is made stands where the program does.
                     if self.set.chain == Chain::NONE {
                         for (made, own) in self.outer.at.position.iter_mut().zip(self.inner.at.position) {
                             *made = made.or(own);
@@ -337,7 +337,7 @@ impl Frames<'_> {
         }
         if self.chained {
             match said {
-                // A chain that begins anew leaves nothing of the one before.
+                // A chain that begins again leaves nothing of the one before.
                 Op::SetFrame(frame) if !frame.added => self.chained = false,
                 Op::ClearFrame(FrameSlot::Chain) => self.chained = false,
                 Op::ClearFrame(_) => return Ok((false, Vec::new())),
@@ -410,7 +410,7 @@ impl Frames<'_> {
             }
             return Ok(ops);
         }
-        // What can be said as it stands is, while nothing else is in the way.
+        // What can be stated as it stands is, while nothing else is in the way.
         if self.set.chain == Chain::NONE && self.set.said == self.set.slots {
             if caps.says_frame(op) {
                 self.set.said = slots.clone();
@@ -437,8 +437,8 @@ impl Frames<'_> {
         Ok(Some(ops))
     }
 
-    /// The statements that take a shift of the origin back where no word does: the present point gets the
-    /// coordinates that it has without one, and the local shift, which that ends, is said again.
+    /// The statements that take a G92 shift back where no word does: the present point gets the
+    /// coordinates that it has without one, and the local shift, which that ends, is stated again.
     fn origin_back(&self, slots: &Slots) -> Result<Vec<Op>, Fault> {
         if slots.is_turned() {
             return Err(cannot(FramesLack::ShiftEndInTurnedFrame));
@@ -570,7 +570,7 @@ impl Frames<'_> {
         }])
     }
 
-    /// The shift of the origin.
+    /// The G92 shift.
     fn shift(&self) -> [Nanos; AXES] {
         self.set.slots.origin.map(Option::unwrap_or_default)
     }

@@ -1,8 +1,8 @@
-//! What a target forbids while a rotation, factors or a mirror are in force: there they are taken back
-//! before it and said again behind it.
+//! What a target forbids while a rotation, factors or a mirror are active: there they are taken back
+//! before it and stated again after it.
 //!
 //! Another work offset is such a thing. Values put into tables, and moves in machine coordinates and to
-//! points of the machine, which would lead the tool out of a turned frame and back, are refused by name.
+//! reference points, which would lead the tool out of a turned frame and back, are refused.
 
 use crate::frames::expand_frames::{Frames, Slots, cannot};
 use crate::frames::frame_forms::between;

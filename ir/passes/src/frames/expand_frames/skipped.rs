@@ -1,4 +1,4 @@
-//! Shifts in blocks that can be skipped.
+//! Shifts in blocks with block skip.
 //!
 //! ```text
 //! /G52 X2. Y0. Z0.      /TRANS X2 Y0 Z0

@@ -1,6 +1,6 @@
 //! Words of moves and arcs under a frame: shifted along their axes, or computed where axes are mixed.
 //!
-//! Refused by name: arcs that the frame does not leave arcs, and places that are not known.
+//! Refused: arcs that the frame does not leave arcs, and places that are not known.
 
 use crate::frames::expand_frames::now::value_of;
 use crate::frames::expand_frames::{Frames, NOTHING, cannot};

@@ -13,7 +13,7 @@ pub(super) struct Pending {
     pub(super) axes: [Option<Option<Nanos>>; AXES],
     /// Whether words without a distance of their own may be absolute, and whether they may be incremental.
     pub(super) measured: [bool; 2],
-    /// Axes of the planes in which rotations may be in force.
+    /// Axes of the planes in which rotations may be active.
     pub(super) rotated: [bool; AXES],
 }
 

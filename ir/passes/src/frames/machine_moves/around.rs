@@ -19,7 +19,7 @@ enum Then {
 }
 
 /// Takes it away where G90, another G91 or the program's end follows before anything counts by it. `before` is what is
-/// in force before the first statement.
+/// active before the first statement.
 pub(super) fn drop_distance_mode(stmts: &mut Vec<Stmt>, mut before: Option<Distance>) {
     let mut at = 0;
     while at < stmts.len() {

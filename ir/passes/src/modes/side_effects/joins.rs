@@ -1,4 +1,4 @@
-//! The length of the tool where paths join: after a decision, and at the start of a loop that runs again.
+//! The length of the tool where paths join: after a branch, and at the start of a loop that runs again.
 //!
 //! ```text
 //! G53 G0 Z0                      G53 G0 Z0
@@ -25,7 +25,7 @@ use crate::modes::side_effects::{LengthNext, SideEffects};
 /// The length of the tool where paths join.
 #[derive(Clone, Debug)]
 pub(super) struct Length {
-    /// What calls it up; `None` is none.
+    /// What activates it; `None` is none.
     pub(super) op: Option<Op>,
     /// Whether it is known.
     pub(super) known: bool,
@@ -40,7 +40,7 @@ enum Tail {
     Unchanged,
     /// At a place of the machine, before any further move of Z.
     AtPlace(Behaviour, Span),
-    /// Called up again, or Z has moved with it.
+    /// Activated again, or Z has moved with it.
     Settled,
 }
 
@@ -126,7 +126,7 @@ pub(super) fn either(
     }
 }
 
-/// Labels, by their places, after which a length is called up before Z moves by one: what the length needs there, nothing
+/// Labels, by their places, after which a length is activated before Z moves by one: what the length needs there, nothing
 /// asks for.
 pub(super) fn unread_at_labels(body: &[Stmt]) -> BTreeSet<u32> {
     let (mut found, mut reads) = (BTreeSet::new(), true);

@@ -1,6 +1,6 @@
 //! Moves from machine zero, where a tool change has taken Z, for a target that cannot say that Z is there.
 //!
-//! A Haas goes up at M06. A Mach-9 has no words for machine zero, and whether its own M6 goes up is not known; a list of
+//! A Haas goes up at M06. A Mach-9 lacks machine zero, and whether its own M6 goes up is not known; a list of
 //! events has the program's own moves alone. As long as the program says no Z, only its rapid moves are the same:
 //!
 //! ```text
@@ -34,12 +34,12 @@ const MOST_CALLS: usize = 16;
 /// Whether Z may be at machine zero, unsaid, where a program stands.
 #[derive(Clone, Debug, Default)]
 pub(super) struct WayUp {
-    /// The source's control goes up at a change, and the target is taken to do the same without words for it.
+    /// The source's control goes up at a change, and the target, which lacks it, is taken to do the same.
     taken: bool,
     up: bool,
     /// A jump was made there.
     jumped: bool,
-    /// The motion in force is a rapid one, by which bare axis words go.
+    /// The active motion is a rapid one, by which bare axis words go.
     rapid: bool,
     /// What is refused, once each.
     refused: BTreeSet<Span>,
@@ -51,7 +51,7 @@ pub(super) struct WayUp {
 type Held = [bool; 3];
 
 impl SideEffects {
-    /// The target has no words for machine zero, and is taken to move Z there at a tool change, as the source does.
+    /// The target lacks machine zero, and is taken to move Z there at a tool change, as the source does.
     #[must_use]
     pub fn with_way_up_taken(mut self) -> SideEffects {
         self.way_up.taken = true;
@@ -130,7 +130,7 @@ impl WayUp {
         }
     }
 
-    /// What a structure may leave in force is not looked for.
+    /// What a structure may leave active is not looked for.
     fn bodies(&mut self, control: &Control, all: &Places, depth: usize, found: &mut Vec<Diagnostic>) {
         let before = self.up;
         let runs_again = !matches!(control, Control::If { .. });

@@ -1,8 +1,8 @@
-//! The cycle that is in force at a hole.
+//! The cycle that is active at a hole.
 
 use ncc_ir::canon::Modes;
 
-/// Where the cycle in force at a hole is called up, what holds there, and what holds at the hole.
+/// Where the active cycle at a hole is activated, what holds there, and what holds at the hole.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Called {
     pub(super) at: u32,

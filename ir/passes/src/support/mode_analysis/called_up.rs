@@ -1,4 +1,4 @@
-//! Holes that call up their cycles by themselves, and the calls that have served only such holes.
+//! Holes that activate their cycles by themselves, and the calls that have served only such holes.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use ncc_ir::program::kinds::flow;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 
-/// Has holes call up their cycles. Where all of them do, in whatever program, what has called them up is left out.
+/// Has holes activate their cycles. Where all of them do, in whatever program, what has called them up is left out.
 pub(super) fn call_up_all(program: &mut Program, cycles: &HashMap<u32, Option<Called>>, bare: bool) {
     let calls = calls_of(program);
     let (mut any, mut all) = (false, true);
@@ -42,10 +42,10 @@ fn calls_of(program: &Program) -> HashMap<u32, Cycle> {
     out
 }
 
-/// Which cycles are in force at holes, and their calls.
+/// Which cycles are active at holes, and their calls.
 type Calls<'c> = (&'c HashMap<u32, Option<Called>>, &'c HashMap<u32, Cycle>);
 
-/// Holes at which a cycle is in force call it up by themselves; with `bare`, words too of which only the run knows
+/// Holes at which a cycle is active activate it by themselves; with `bare`, words too of which only the run knows
 /// that they are holes. Tells whether there are any, and all of them do.
 fn call_up(body: &mut Vec<Stmt>, from: Calls, bare: bool) -> bool {
     let mut out = Vec::with_capacity(body.len());
@@ -90,7 +90,7 @@ fn call_up(body: &mut Vec<Stmt>, from: Calls, bare: bool) -> bool {
     any && all
 }
 
-/// Whether holes stand in a stretch before any cycle has been called up there.
+/// Whether holes stand in a stretch before any cycle has been activated there.
 pub fn has_bare_holes(body: &[Stmt]) -> bool {
     let mut called = false;
     body.iter().any(|stmt| {
@@ -117,7 +117,7 @@ fn has_calls(stmt: &Stmt) -> bool {
     }
 }
 
-/// Calls of cycles that make no hole before control goes another way leave their feed alone behind.
+/// Calls of cycles that make no hole before control goes another way leave their feed unchanged.
 fn without_holes(body: &mut [Stmt]) {
     let mut idle = None;
     for at in 0..body.len() {

@@ -23,7 +23,7 @@ pub(crate) struct At {
     pub(crate) before: Tracker,
     /// How corners are taken, if it is known.
     pub(crate) path: Option<Box<PathControl>>,
-    /// What holds where the subprogram goes back; `None` if it does not.
+    /// What holds where the subprogram returns; `None` if it does not.
     pub(crate) behind: Option<Tracker>,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Flow<'t> {
     names: HashMap<Text, usize>,
     /// What the target can say, where only saved codes and answers are put in.
     pub(super) target: Option<&'t Computes>,
-    /// Those that give back what their callers had.
+    /// Those that restore the modes of their callers.
     pub(super) gives: Vec<bool>,
     ways: Vec<Ways>,
     /// The procedure at hand.
@@ -60,7 +60,7 @@ pub(super) struct Flow<'t> {
     next: Vec<Option<Held>>,
     pub(super) changed: bool,
     pub(super) settles: bool,
-    /// Whether holes are looked at too, and whether a cycle has been called up in the stretch at hand.
+    /// Whether holes are looked at too, and whether a cycle has been activated in the stretch at hand.
     pub(super) holes: bool,
     called: bool,
     pub(super) starts: HashMap<u32, Tracker>,
@@ -70,7 +70,7 @@ pub(super) struct Flow<'t> {
     pub(super) calls: HashMap<u32, At>,
     /// Whether a cycle may be active at statements, by their places, where that is asked for.
     pub(super) active: Option<HashMap<u32, bool>>,
-    /// What the text has said so far, for blocks to which no way leads: they are written as they stand there.
+    /// What the text has stated so far, for blocks to which no way leads: they are written as they stand there.
     text: Held,
 }
 
@@ -203,7 +203,7 @@ impl Flow<'_> {
             Op::Control(control)
                 if let Some(op) = state.as_ref().and_then(|held| held.saved.code(control)) =>
             {
-                // The mode that was saved is known: that is what is put back.
+                // The mode that was saved is known: that is what is restored.
                 if self.settles {
                     stmt.op = op;
                     return self.stmt(stmt, state);
@@ -253,7 +253,7 @@ impl Flow<'_> {
     fn call(&mut self, call: &Call, place: u32, state: Option<Held>) -> Option<Held> {
         let found = *self.names.get(&call.name)?;
         let called = &mut self.ways[found];
-        // A cycle in force is its caller's, which says it once.
+        // An active cycle is its caller's, which says it once.
         let shared = call.shared;
         let enters = |held: Held| Held { as_called: false, saved: held.saved.entered(shared), ..held };
         let entered = state.clone().map(enters);

@@ -14,11 +14,11 @@ pub(super) struct Held {
     pub(super) at: Tracker,
     /// How corners are taken, if the program has said it.
     pub(super) path: Option<Box<PathControl>>,
-    /// Whether the cycle in force is as its block has called it up: the same words would call up the same.
+    /// Whether the active cycle is as its block has called it up: the same words would activate the same.
     pub(super) as_called: bool,
     /// The place of that block, and what holds there.
     pub(super) called_at: (u32, Modes),
-    /// Variables that have whole numbers, such as saved codes in force.
+    /// Variables that have whole numbers, such as saved active codes.
     pub(super) saved: Saved,
 }
 
@@ -32,7 +32,7 @@ impl Held {
         self.saved.join(&other.saved);
     }
 
-    /// The cycle in force, if it is known and as it was called up.
+    /// The active cycle, if it is known and as it was activated.
     pub(super) fn cycle(&self) -> Option<Called> {
         let in_force = self.at.cycle.is_some() && !self.at.cycle_in_doubt;
         let sure = self.as_called && self.at.modes.motion == Some(Motion::Cycle);
@@ -40,7 +40,7 @@ impl Held {
         (sure && in_force).then_some(Called { at, with, modes: self.at.modes })
     }
 
-    /// Behind a call that gives back what its caller had.
+    /// After a call that restores the modes of its caller.
     pub(super) fn with_restored_modes(mut self, caller: &Held) -> Held {
         let (own, before) = (&mut self.at, &caller.at);
         let (modes, had) = (&mut own.modes, &before.modes);

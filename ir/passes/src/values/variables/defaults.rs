@@ -72,7 +72,7 @@ struct Default {
 }
 
 impl Default {
-    /// The next one of a body, behind nothing but others and refusals.
+    /// The next one of a body, after nothing but others and refusals.
     fn at(body: &[Stmt], begin: usize) -> Option<Default> {
         let idle = |stmt: &Stmt| match &stmt.op {
             Op::Comment(_) | Op::Blank => true,

@@ -1,10 +1,10 @@
-//! Which local variables have a value, on every way to where they are read; and what the program decides by that.
+//! Which local variables have a value, on every path to where they are read; and what the program decides by that.
 //!
-//! A control that knows variables without a value leaves their words out, and tells them from zero. For one that does
-//! not, what is the same on every way is decided here: a comparison with nothing holds or does not, a word without a
+//! A control that knows empty variables leaves their words out, and tells them from zero. For one that does
+//! not, what is the same on every path is decided here: a comparison with nothing holds or does not, a word without a
 //! value is no word. What is one thing on one way and another on the next is refused at its place.
 //!
-//! The ways are those of the text: through decisions, loops and jumps, into what is called, with the arguments of all
+//! The ways are those of the text: through branches, loops and jumps, into what is called, with the arguments of all
 //! calls together, and with its caller's variables once for each call. A block that may be skipped gives nothing for
 //! sure. Not followed: what common variables have; whether they have a value is the same question in both programs.
 
@@ -30,7 +30,7 @@ use ways::Ways;
 
 pub use elsewhere::{Question, questions};
 
-/// Which controls know variables without a value.
+/// Which controls know empty variables.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vacant {
     /// The target's does: only what must have a value is looked at.

@@ -3,7 +3,7 @@
 //! In this order, each rule for all variables in the order of the text before the next one:
 //!
 //! 1. What the target has under the same name stays.
-//! 2. A number stays behind the target's prefix, where the target has it for such a lifetime: `#101` is `R101`.
+//! 2. A number stays after the target's prefix, where the target has it for such a lifetime: `#101` is `R101`.
 //! 3. Else it is the number and 100, where that is free: `R1` is `#101`.
 //! 4. Else, as a name that the target does not have, the first free number of those that all programs see.
 //!
@@ -502,7 +502,7 @@ fn run(ranges: &[[u32; 2]], taken: &BTreeSet<u32>, count: u32) -> Option<u32> {
     })
 }
 
-/// A name that is not in use, with a number behind it if need be.
+/// A name that is not in use, with a number after it if need be.
 fn unlike(name: &str, made: impl Fn(&str) -> Option<Var>) -> Option<Var> {
     made(name).or_else(|| (2..1000).find_map(|more| made(&format!("{name}_{more}"))))
 }

@@ -1,5 +1,5 @@
 //! Parameters that are the caller's variables themselves, for a target without such: what a call gives them stands
-//! before it, and what they are given back behind it.
+//! before it, and restored after it.
 
 use std::collections::HashMap;
 

@@ -3,7 +3,7 @@
 //! goes into it.
 //!
 //! A control that makes its numbers whole first does so in a way that is not known for sure: that there is nothing to
-//! make whole is taken for granted of its own programs, and told where another control takes the numbers as they are.
+//! make whole is assumed of its own programs, and reported where another control takes the numbers as they are.
 
 use crate::values::variables::expressions;
 use ncc_ir::computed::computes::{Computes, Remainders};

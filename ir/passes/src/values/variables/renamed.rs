@@ -12,7 +12,7 @@ pub struct Renamed {
 }
 
 impl Renamed {
-    /// The source's variable behind one of the target's.
+    /// The source's variable after one of the target's.
     pub fn source(&self, target: &Var) -> Option<&Var> {
         self.pairs.iter().find(|(_, new)| new == target).map(|(old, _)| old)
     }
@@ -31,7 +31,7 @@ impl Renamed {
 /// Digits of the target's lengths.
 #[derive(Clone, Copy, Debug)]
 pub struct Digits {
-    /// Behind the point, in mm; in inches it has one more.
+    /// After the point, in mm; in inches it has one more.
     pub decimals: u8,
     /// To which its words round what is computed, in mm or degrees, and in inches.
     pub increments: [u8; 2],

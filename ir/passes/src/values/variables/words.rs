@@ -1,5 +1,5 @@
-//! What the target's words and functions do by themselves: a rounding that ends below its last digit is taken away, a
-//! rounding up that it has no word for is said by another.
+//! What the target's words and functions do by themselves: a rounding that ends below its least increment is taken away, a
+//! rounding up that it lacks is stated by another.
 
 use std::cell::Cell;
 
@@ -15,7 +15,7 @@ use ncc_ir::program::arguments;
 use ncc_ir::program::{Centre, Coord, Op, Point, Program, Stmt, Type};
 use ncc_ir::source::Span;
 
-/// A literal that is rounded, as the whole number that it comes to.
+/// A literal that is rounded, as its whole number.
 pub(super) fn round_literal(expr: &mut Expr) {
     expr.parts_mut().for_each(round_literal);
     if let Expr::Node(node) = expr
@@ -52,8 +52,8 @@ pub(super) fn up(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Takes away what only says that a word rounds. A length from zero is no further off than half of the target's last
-/// digit; what adds up, or counts, or has finer digits there, is rounded as the program says.
+/// Takes away what only says that a word rounds. A length from zero is no further off than half the target's least increment;
+/// what adds up, or counts, or has finer digits there, is rounded as the program says.
 pub(super) fn unrounded(body: &mut [Stmt], decimals: u8) {
     for stmt in body {
         if let Op::Control(control) = &mut stmt.op {
@@ -107,9 +107,9 @@ pub(crate) fn rounded(value: &Expr) -> Option<(Expr, u8)> {
 }
 
 /// Says that lengths are rounded, where the target's words do that by themselves and the source's do not: those from
-/// zero are no further off than half of the target's last digit. `increments` are the digits in mm, or degrees, and in
+/// zero are no further off than half the target's least increment. `increments` are the digits in mm, or degrees, and in
 /// inches. What adds up is the same where it has no more digits than that; where it may have more, that the roundings
-/// come to nothing is taken for granted and told: execution tells whether it is so. Of frames and of values
+/// give nothing is assumed and reported: execution tells whether it is so. Of frames and of values
 /// for tables only those are, which have no more digits: what they move is rounded once more. Speeds and what counts must be whole anyway. Lengths stay as they
 /// are where a program goes from one unit to the other.
 pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec<Diagnostic>) {
@@ -250,7 +250,7 @@ fn round_in(
     decimals: &Decimals,
     adds_up: &mut Option<Span>,
 ) {
-    // What the word in force is, nothing in the program makes incremental.
+    // What the active word is, nothing in the program makes incremental.
     let from_zero = |word: &Coord| match word.distance.known() {
         Some(distance) => distance == Distance::Absolute,
         None => !incremental,

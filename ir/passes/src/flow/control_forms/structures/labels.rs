@@ -56,7 +56,7 @@ pub(super) fn position_from(body: &[Stmt], from: usize, name: &str) -> Option<us
     position(rest, name).map(|at| before.len() + at).or_else(|| position(before, name))
 }
 
-/// Labels that stand where a place of a list is, and those behind the list if it is its end.
+/// Labels that stand where a place of a list is, and those after the list if it is its end.
 pub(super) fn at_place(body: &[Stmt], place: usize, behind: &BTreeSet<Text>) -> BTreeSet<Text> {
     let rest = &body[place.min(body.len())..];
     let here = rest.iter().take_while(|stmt| matches!(stmt.op, Op::Label(_))).count();

@@ -1,4 +1,4 @@
-//! Macros apart: one that decides by which arguments it is given, and whose calls give different ones, becomes several,
+//! Specialises macros: one that branches on its arguments, and whose calls give different ones, becomes several,
 //! one for each set of arguments. The first keeps the name, the others get names of their own, in the order of the calls.
 //!
 //! Left alone: a macro that sees its caller's variables, or calls itself; one whose calls do not tell by themselves which
@@ -15,7 +15,7 @@ use ncc_ir::source::Span;
 /// Most sets of arguments that one macro is written for.
 const MOST_SETS: usize = 6;
 
-/// Most programs that a program may come to by that.
+/// Most programs that this may make of one program.
 const MOST_PROGRAMS: usize = 100;
 
 /// A call as the facts know it: the procedure that it stands in, and which arguments have values.

@@ -50,7 +50,7 @@ fn asked_in(program: &Program, entries: BTreeMap<usize, Known>) -> Vec<Question>
 }
 
 /// Parameters that the main procedure has for its arguments, each of which is given: questions whether one is are
-/// answered by that, which is told where they stand ([`questions`]).
+/// answered by that, which is reported where they stand ([`questions`]).
 ///
 /// # Errors
 /// The program asks whether something has a value that is no parameter.

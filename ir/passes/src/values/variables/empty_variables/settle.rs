@@ -14,9 +14,9 @@ use ncc_ir::source::Span;
 /// Puts in what is known.
 pub(super) struct Settle<'f> {
     pub(super) facts: &'f Facts,
-    /// Whether the target knows variables without a value.
+    /// Whether the target knows empty variables.
     pub(super) vacant: bool,
-    /// Whether a decision of this procedure is made.
+    /// Whether a branch of this procedure is made.
     pub(super) decided: bool,
 }
 
@@ -66,7 +66,7 @@ impl Settle<'_> {
 
     fn stmt(&mut self, was: &Stmt, mut stmt: Stmt) -> Result<Kept, Diagnostic> {
         let Some(known) = self.facts.get(&place(was)) else {
-            // No way leads here. What a decision has cut off is gone.
+            // No way leads here. What a branch has cut off is gone.
             let stays = matches!(stmt.op, Op::Label(_) | Op::Comment(_)) || !self.decided;
             return Ok(if stays { Kept::As(stmt) } else { Kept::Instead(Vec::new()) });
         };
@@ -120,7 +120,7 @@ impl Settle<'_> {
         Ok(Kept::As(stmt))
     }
 
-    /// A decision, or what it leads to where that is known.
+    /// A branch, or what it leads to where that is known.
     fn decision(&mut self, before: &Control, mut stmt: Stmt, values: Values) -> Result<Kept, Diagnostic> {
         let Op::Control(control) = &mut stmt.op else { return Ok(Kept::As(stmt)) };
         let Control::If { condition, then, otherwise } = &mut **control else { return Ok(Kept::As(stmt)) };

@@ -8,7 +8,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
 use ncc_ir::program::Program;
 
-/// Most variables that are told.
+/// Most variables that are reported.
 const MOST_TOLD: usize = 40;
 
 impl<'c> Plan<'c> {
