@@ -39,7 +39,7 @@ fn programs_that_cannot_be_compared() {
     run(&["mach9:good.cn", "mach9:none.cn"]).exits(4).says("no such file");
     run(&["nosuch:good.cn", "mach9:good.cn"]).exits(2).says("there is no dialect `nosuch`");
     std::fs::write(folder.path().join("prose.txt"), "hello world\n").unwrap();
-    run(&["prose.txt", "prose.txt"]).exits(5).says("cannot be told");
+    run(&["prose.txt", "prose.txt"]).exits(5).says("is not certain");
     run(&["mach9:-", "mach9:-"]).exits(2).says("only once");
     std::fs::write(folder.path().join("empty.cn"), "").unwrap();
     std::fs::write(folder.path().join("binary.cn"), [0u8, 1, 2, 255, 0, 9]).unwrap();

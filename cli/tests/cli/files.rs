@@ -150,7 +150,7 @@ fn an_empty_file_is_no_riddle() {
         }
     }
     fs::write(folder.join("empty.cn"), "hello\n").unwrap();
-    ncc(folder, &["auto", "to", "fanuc", "empty.cn"]).exits(2).says("cannot be told for certain");
+    ncc(folder, &["auto", "to", "fanuc", "empty.cn"]).exits(2).says("is not certain");
 }
 
 #[test]

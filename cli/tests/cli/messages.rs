@@ -156,7 +156,7 @@ fn an_unknown_dialect_of_a_text_is_not_guessed() {
     std::fs::write(folder.path().join("p.nc"), "G0 X1.\nM30\n").unwrap();
     let done = ncc(folder.path(), &["auto", "to", "ir", "p.nc"]).exits(2);
     assert_eq!(done.out, "");
-    done.says("cannot be told for certain").says("name it: --from");
+    done.says("is not certain").says("name it: --from");
     let done = ncc(folder.path(), &["auto", "to", "fanuc", "good.cn"]).exits(0);
     done.says("good.cn: read as mach9: ");
 }

@@ -1,3 +1,3 @@
 NC0324 = check at the machine: this tool change moves Z to machine zero
     .label = { $target } does this, { $source } does not
-    .help = check that the way up is free
+    .help = check that the path up is free

@@ -1,4 +1,4 @@
 NC0411 = message to the operator lost
     .label = { $target } cannot show a message
     .account = messages to the operator
-    .help = put the message on the setup sheet
+    .help = write the message on the setup sheet

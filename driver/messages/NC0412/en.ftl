@@ -1,4 +1,4 @@
-NC0412 = repetition written out { $times } { $times ->
+NC0412 = repetition unrolled { $times } { $times ->
         [one] time
        *[other] times
     }

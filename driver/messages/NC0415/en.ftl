@@ -1,3 +1,3 @@
-NC0415 = { $holes } positions written as a { $pattern }
+NC0415 = { $holes } positions folded into a { $pattern }
     .label = separate positions here
     .account = { $holes } positions into a { $pattern }

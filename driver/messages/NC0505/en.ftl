@@ -1,3 +1,3 @@
-NC0505 = the profile of { $machine } says otherwise
+NC0505 = the profile of { $machine } states otherwise
     .label = this needs { $fact }
     .help = write this block without it, or correct the profile

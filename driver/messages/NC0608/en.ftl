@@ -12,7 +12,7 @@ NC0608-null = every call must pass { $name }{ $place ->
         [0] {""}
        *[other] {""} in place { $place }
     }
-    .label = { $target } has no value for an argument that a call omits
+    .label = an argument that a call omits is empty on { $target }
     .help = check each call of this macro
     .help-zero = check each call: it must pass { $name }, also where it is zero
     .help-whole = check each call: { $name } must be a whole number in each
@@ -20,7 +20,7 @@ NC0608-whole = every call must pass { $name }{ $place ->
         [0] {""}
        *[other] {""} in place { $place }
     }, a whole number
-    .label = { $target } rounds it, and has no value if a call omits it
+    .label = { $target } rounds it; it is empty if a call omits it
     .help-whole = check each call: { $name } must be a whole number in each
 NC0608-check = every call must pass { $name }{ $place ->
         [0] {""}

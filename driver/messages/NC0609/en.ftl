@@ -1,3 +1,3 @@
 NC0609 = partly verified: the output has more branches than the source
-    .label = branches that did not run both ways: { $blocks }
+    .label = branches with an uncovered side: { $blocks }
     .help = check the output of these branches

@@ -4,4 +4,4 @@ NC0906 = the tool runs into a fixture
         [one] ; one more move
        *[other] ; { $more } more moves
     }
-    .help = go around the fixture, or check its place and the work offset
+    .help = go around the fixture, or check its position and the work offset

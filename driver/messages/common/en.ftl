@@ -11,4 +11,4 @@ common-also-places = also at { $more } more { $more ->
 common-related = belongs to it
 common-allow = to accept this loss, add `--allow { $verdict }`
 common-deny = stopped because of `--deny { $verdict }`
-common-explain = `ncc explain { $code }` says more
+common-explain = `ncc explain { $code }` explains it

@@ -8,7 +8,7 @@ dialect-source = source: { $source }
 
 dialect-behaviours = What codes do besides their names (? is open: an option of the same name states it)
 dialect-options = Options (--from-option, --to-option NAME=VALUE)
-dialect-capabilities = What can be said in it
+dialect-capabilities = What it can do
 dialect-codes = Codes (word, meaning, source)
 dialect-refused-codes = Codes that are known and refused
 dialect-names = Words of several letters (word, meaning, source)

@@ -16,8 +16,8 @@ dictionary-cycle-kind = row { $row }: no kind of cycle: { $name }
     .help-one = did you mean `{ $near }`?
     .help-several = near it are { $near }
 dictionary-missing-field = missing field `{ $field }`
-    .help = add `{ $field }` to this row; `ncc dialects schema` says what it holds
-    .help-source = add `source = "…"`: the manual and its page, or who says so
+    .help = add `{ $field }` to this row; `ncc dialects schema` states what it holds
+    .help-source = add `source = "…"`: the manual and its page, or who states it
 dictionary-not-in-base = { $row }: the base has no such row, and a new one needs more fields
     .help = `ncc dialects show` lists the rows of the base
     .help-one = did you mean `{ $near }`?
@@ -58,15 +58,15 @@ dictionary-base-cycle = a dictionary cannot build on itself: { $chain }
 dictionary-other-family = a dialect has the family of its base
     .help = leave `family` out
 dictionary-no-key = a row of [[{ $table }]] needs `{ $key }`
-    .help = rows of a table are told apart by this field; each stands once in a file
+    .help = this field identifies the row; each value occurs once in a file
 dictionary-row-twice = row { $row }: twice in this file
-    .help = rows of a table are told apart by this field; each stands once in a file
+    .help = this field identifies the row; each value occurs once in a file
 dictionary-nothing-there = { $row }: `{ $word }`, but the base has nothing of that name
     .help = `ncc dialects show` lists the rows of the base
 
 # Rows that contradict another, or name what is not there.
 dictionary-row = row { $row }: { $wrong }
-    .help = `ncc dialects schema` says what a row needs
+    .help = `ncc dialects schema` states what a row needs
     .help-base = this file takes away what it needs; remove it too: `[[{ $table }]]`, `{ $key }`, `remove = true`
 dictionary-NoBehaviour = no such behaviour, or no such value of it
 dictionary-OtherValues = `others` has a value that the behaviour does not have

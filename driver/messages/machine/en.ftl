@@ -1,6 +1,6 @@
 # `ncc machines show` and `ncc machines test`.
 machine-dialect = dialect: { $dialect } ({ $title })
-machine-typical = typical: stands for a kind of machine, not for one that somebody has measured
+machine-typical = typical: describes a kind of machine, not one that somebody has measured
 machine-legend = (~ is marked as assumed)
 machine-unconfirmed = { $rows } rows of { $dialect } are unconfirmed: `ncc dialects show { $dialect }` marks them with ?
 

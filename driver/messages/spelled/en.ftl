@@ -5,7 +5,7 @@ spelled-line = a line
 spelled-many-words = too many words
 spelled-radii = radius { $start } mm at the start, { $end } mm at the end
 spelled-next-run-values = the next run reads other values
-spelled-next-run-place = the next run begins in another place
+spelled-next-run-place = the next run starts at another position
 spelled-radius-of-entry = the radius of entry { $entry } is not known
 spelled-radius-of-edge = the radius of this edge is not known
 spelled-kept-until-end = until the program ends
@@ -72,7 +72,7 @@ spelled-alarm-cut = { $from } is { $to } with the text { $text }
 spelled-alarm-text = { $text }
 
 # The state of the machine beside a block.
-spelled-feed-move = straight at feed
+spelled-feed-move = feed move
 spelled-cycle = { $kind } from { $retract } to { $depth }
 spelled-cycle-initial = { $kind } from { $retract } to { $depth }, back to the initial level
 spelled-cycle-retract = { $kind } from { $retract } to { $depth }, back to the retract plane

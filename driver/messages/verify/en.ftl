@@ -55,5 +55,5 @@ verify-output-unexecuted = ncc cannot execute the output
 verify-both-unexecuted = ncc cannot execute either program
 
 # What the reader of a comparison must know.
-verify-finer = a translation would be different: in the output's own last digit, which the source does not resolve
+verify-finer = a translation would be different: in the output's least increment, which the source does not resolve
 verify-cycle-parameters = the cycle parameters of the source's control hold for both
