@@ -21,21 +21,21 @@ head-no-length-offset = no length offset at the start
 head-no-origin-shift = no origin shift at the start
 head-no-effect = { $code } has no effect
 head-bare-number = { $word } without point = { $value }
-head-offset-with-z = length offset taken up with the next Z
+head-offset-with-z = tool length offset takes effect at the next Z move
 head-only-work-offset = the only work offset = { $value }
 head-fact = { $name } = { $value }
 head-hole-order = order of the holes of { $pattern }
 head-corners = corners always by { $path }
 head-milling = a milling program, though line { $line } looks like { $looks-like }
-head-tip = rotary axes, and the zero of the tool's tip, as on the other control
+head-tip = rotary axes, and the zero of the tool tip, as on the other control
 head-tool-change = tool_with_change = named
 head-call-depth = calls go { $depth } deep, older controls take { $sure }
 head-macro-call-depth = macro calls go { $depth } deep, older controls take { $sure }
 head-cycle = cycle_beside_motion = drilled
 head-return = return_distance = last
 head-control = control = { $taken }, not { $other }
-head-tilt = the tool turned onto tilted planes as on the other control
-head-contour-path = compensation worked out as RS274/NGC has it
+head-tilt = the tool swivelled to tilted planes as on the other control
+head-contour-path = tool centre path computed as by RS274/NGC
 head-started-again = { $behaviour }: started again before the next cut
 head-behaviour = { $option } = { $taken } on { $control }
 head-optional-stop = the switch for optional stops is off
@@ -48,7 +48,7 @@ head-feed-on-contour = F on arcs under cutter compensation: along the contour on
 head-feed-on-centre = F on arcs under cutter compensation: at the tool centre on { $source }, along the contour on { $target }
 head-length-by-hand = the zero of Z is set by tool { $tool } when it is put in
 head-moved-at-change = a tool change takes Z to machine zero
-head-contour-ends = the same way onto a compensated contour, and off it
+head-contour-ends = the same lead-in and lead-out of a compensated contour
 head-radius = a radius entry = the radius of the tool of its number
 head-edge = edge 1 of a tool = the length entry of its number
 head-edge-number = edge { $edge } of tool { $tool } = length entry { $entry }

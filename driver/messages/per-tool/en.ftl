@@ -9,7 +9,7 @@ per-tool-begin-by-hand = begin at rest, after a reset, with this tool put in and
 per-tool-begin-by-hand-in = begin at rest, after a reset, with this tool put in and the zero of Z set by it in { $offset }
 per-tool-begin-by-hand-among = begin at rest, after a reset, with this tool put in and the zero of Z set by it in { $others } and { $offset }
 per-tool-begin = begin at rest, after a reset, with this tool put in, and the zero of Z as it was for the tool before
-per-tool-begin-in-spindle = begin at rest, after a reset, with the tool that is in the spindle
+per-tool-begin-in-spindle = begin at rest, after a reset, with the tool in the spindle
 
 per-tool-differs = run by itself, the file of a tool differs: { $difference }
 per-tool-ends-early = the file of a tool ends early
