@@ -44,6 +44,6 @@ meaning-ROLE-call = number of a subprogram
 meaning-ROLE-parameter = parameter of codes
 meaning-CORNER = corner rounding or chamfer
 meaning-MODAL_MACRO_CALL-words = MODAL_MACRO_CALL, the words of each block its arguments
-meaning-MODAL_MACRO_CALL-anew = MODAL_MACRO_CALL, its arguments anew each time
+meaning-MODAL_MACRO_CALL-anew = MODAL_MACRO_CALL, its arguments passed again at each call
 meaning-LAST_ENTRY-D = the last D, in a block without one
 meaning-LAST_ENTRY-H = the last H, in a block without one
