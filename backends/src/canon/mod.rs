@@ -40,6 +40,16 @@ struct Decimals {
     speed: u8,
 }
 
+/// The work offset that an origin by values is.
+const FIRST: u16 = 1;
+
+/// How a text says origins: by the number of a work offset, or by values, never both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    Number,
+    Values,
+}
+
 /// Writes the canonical stream.
 pub struct Writer {
     eol: &'static [u8],
@@ -56,6 +66,10 @@ pub struct Writer {
     six: bool,
     /// Whether a length offset waits for the next Z word.
     offset_waits: bool,
+    /// In which form the text says origins.
+    origin: Option<Origin>,
+    /// Whether the block whose values are written calls up the first work offset.
+    calls_first: bool,
     begun: bool,
     /// Block numbers left out, and the first place.
     numbers: (u32, Span),
@@ -85,6 +99,8 @@ impl Writer {
             feed_mode: Some(FeedMode::PerMinute),
             six: false,
             offset_waits: false,
+            origin: None,
+            calls_first: false,
             begun: false,
             numbers: (0, Span::default()),
             trace: None,
@@ -102,7 +118,11 @@ impl Writer {
             // Where Z is after a tool change, the source knows: it is named before this, or left as it is.
             self.at = Tracker { position: self.start, z_lost_at_change: true, ..Tracker::new(*assumed) };
         }
-        for stmt in stmts {
+        for (place, stmt) in stmts.iter().enumerate() {
+            if let Op::SetData(_) = stmt.op {
+                let next = stmts.get(place + 1).filter(|next| next.joined);
+                self.calls_first = next.is_some_and(|next| next.op == Op::SetOriginOffsets(FIRST));
+            }
             if let Some(lines) = packed(stmt) {
                 each_blocks(lines, |blocks| self.write(blocks, assumed, out, diags));
                 continue;
@@ -283,7 +303,15 @@ impl Writer {
                 write_whole(arguments::count(n, "USE_TOOL_LENGTH_OFFSET").map_err(here)?, out);
                 self.offset_waits = true;
             }
+            Op::UseToolLength(length) => self.tool_length(s, length, out, diags).map_err(here)?,
+            Op::SetData(data) => self.origin_by_values(s, data, out, diags).map_err(here)?,
+            // The values have called it up.
+            Op::SetOriginOffsets(FIRST) if self.origin == Some(Origin::Values) => return Ok(()),
             Op::SetOriginOffsets(n) => {
+                if self.origin == Some(Origin::Values) {
+                    return Err(here(cannot(&s.op)));
+                }
+                self.origin = Some(Origin::Number);
                 self.open(s, out);
                 write_whole(u64::from(*n), out);
             }
@@ -328,8 +356,6 @@ impl Writer {
             | Op::Probe(_)
             | Op::Detour(_)
             | Op::GoToReference(_)
-            | Op::SetData(_)
-            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)

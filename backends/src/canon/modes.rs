@@ -2,10 +2,11 @@
 
 use ncc_ir::canon::{Modes, PathMode, Plane, Side, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
-use ncc_ir::program::{CutterRadius, PathControl, Stmt};
+use ncc_ir::program::{CutterRadius, Data, DataMode, PathControl, Stmt, ToolLength};
 
-use super::{Writer, arguments, cannot};
+use super::{FIRST, Origin, Writer, arguments, cannot};
 use crate::common::quoted::write_whole;
 
 impl Writer {
@@ -75,6 +76,51 @@ impl Writer {
         } else if let CutterRadius::Entry(entry) = radius {
             write_whole(arguments::count(entry, s.op.name())?, out);
         }
+        Ok(())
+    }
+
+    /// The call of an origin by values: those of the first work offset, while it is active or called up in the block.
+    pub(super) fn origin_by_values(
+        &mut self,
+        s: &Stmt,
+        data: &Data,
+        out: &mut Vec<u8>,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), Fault> {
+        let Data::Offset { offset: FIRST, mode: DataMode::Set, words, turn: None } = data else {
+            return Err(cannot(&s.op));
+        };
+        let values: Vec<&Expr> = words.iter().map_while(Option::as_ref).collect();
+        let whole = matches!(values.len(), 3 | 6) && values.len() == words.iter().flatten().count();
+        let active = self.calls_first || self.at.modes.work_offset == Some(FIRST);
+        if !whole || !active || s.skip.is_some() || self.origin == Some(Origin::Number) {
+            return Err(cannot(&s.op));
+        }
+        let values = values.into_iter().map(arguments::literal).collect::<Result<Vec<_>, _>>()?;
+        self.use_units(values[0].unit, out);
+        self.begin(s, "SET_ORIGIN_OFFSETS", out);
+        for (place, value) in values.into_iter().enumerate() {
+            out.extend_from_slice(if place == 0 { b"" } else { b", " });
+            self.value(value, "origin", s.span, out, diags)?;
+        }
+        self.origin = Some(Origin::Values);
+        Ok(())
+    }
+
+    /// The call of a length that stands in no table: a number with a decimal point.
+    pub(super) fn tool_length(
+        &mut self,
+        s: &Stmt,
+        length: &ToolLength,
+        out: &mut Vec<u8>,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), Fault> {
+        let ToolLength::Value(value) = length else { return Err(cannot(&s.op)) };
+        let value = arguments::literal(value)?;
+        self.use_units(value.unit, out);
+        self.begin(s, "USE_TOOL_LENGTH_OFFSET", out);
+        self.value(value, "length", s.span, out, diags)?;
+        self.offset_waits = true;
         Ok(())
     }
 
