@@ -126,6 +126,29 @@ fn table_11_is_reproduced() {
     }
 }
 
+/// The blocks that the case study prints of its document (ch. 5): G81, G25 and G80 of the third tool. Its G81 has the
+/// parameters of the second tool, z -6 and f 191, which is a slip: the block says Z-8 and F186.
+#[test]
+fn the_printed_form_is_the_case_studys() {
+    let printed = [
+        r#""cut_offset":0,"feed":186,"speed":1857,"tool":3,"dx":0.0,"dy":0.0,"dz":0.0,"distance":0.0,"time":0.0,"timestamp":0.0,"parameters":[{"z":-8.0,"r":3.0,"f":186}]}"#,
+        r#""cut_offset":0,"feed":0,"speed":0,"tool":3,"dx":0.0,"dy":0.0,"dz":0.0,"distance":0.0,"time":0.0,"timestamp":0.0,"parameters":[{"x":30.0,"y":130.0,"i":2,"j":2}]}"#,
+        r#""cut_offset":0,"feed":0,"speed":1857,"tool":3,"dx":0.0,"dy":0.0,"dz":0.0,"distance":0.0,"time":0.0,"timestamp":0.0,"parameters":[{}]}"#,
+    ];
+    let names = [("G81", "START_CYCLE"), ("G25", "RECTANGULAR_LAYOUT"), ("G80", "END_CYCLE")]
+        .map(|(gcode, name)| format!(r#"{{"gcode":"{gcode}","function_name":"{name}","x0":"#));
+    let machine = ["--machine", "romi-discovery-4022", "--as", "payload-printed", "--stage", "before"];
+    let all = [&machine[..], &["--from-option", "o_word=ignore"]].concat();
+    let text =
+        time(&all, &[&corpus::root().join("corpus/mach9/table9.cn")]).expect("the program is executed");
+    let text = String::from_utf8(text).expect("text");
+    assert!(text.contains(r#""machine_name": "romi-discovery-4022""#), "{text}");
+    for (name, printed) in names.iter().zip(printed) {
+        let block = text.lines().find(|line| line.trim().starts_with(name)).expect("the block");
+        assert!(block.trim().trim_end_matches(',').ends_with(printed), "{block}");
+    }
+}
+
 /// The whole program executed literally, row by row; it was computed by another program.
 #[test]
 fn the_literal_run_is_reproduced() {
@@ -154,6 +177,27 @@ const SESSIONS: &[(&str, &[&str], &[&str])] = &[
         "teste-before.json",
         &["--machine", "romi-discovery-4022", "--as", "payload", "--stage", "before"],
         &["mach9/teste.cn"],
+    ),
+    (
+        "table9-printed-before.json",
+        &[
+            "--machine",
+            "romi-discovery-4022",
+            "--as",
+            "payload-printed",
+            "--stage",
+            "before",
+            "--start",
+            "X-9,Y15.588,Z3",
+            "--from-option",
+            "o_word=ignore",
+        ],
+        &["mach9/table9.cn"],
+    ),
+    (
+        "table9-printed.json",
+        &["--machine", "romi-discovery-4022", "--as", "payload-printed", "--start", "X-9,Y15.588,Z3"],
+        &["mach9/table9.cn"],
     ),
     ("teste.canon", &["--machine", "romi-discovery-4022", "--as", "canon"], &["mach9/teste.cn"]),
     (

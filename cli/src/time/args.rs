@@ -83,6 +83,8 @@ pub enum Form {
     Csv,
     /// Every function, as one JSON document
     Payload,
+    /// The same, with the fields as the case study prints them
+    PayloadPrinted,
     /// Every function, as JSON, one a line
     Ndjson,
     /// The canonical functions, with times in comments; not of edges above 1, nor of a move in machine
@@ -95,8 +97,13 @@ impl Form {
     pub(super) fn takes_several(self) -> bool {
         match self {
             Form::Summary | Form::Json | Form::Markdown | Form::Tools => true,
-            Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => false,
+            Form::Csv | Form::Payload | Form::PayloadPrinted | Form::Ndjson | Form::Canon => false,
         }
+    }
+
+    /// Whether it can tell of cycles as they are called.
+    pub(super) fn takes_stages(self) -> bool {
+        matches!(self, Form::Payload | Form::PayloadPrinted | Form::Ndjson)
     }
 
     /// Its name on the command line.
