@@ -15,6 +15,7 @@ Examples:
   ncc time part.cn --machine M --as payload              the same as a JSON document
   ncc time part.cn --as payload --stage before           cycles as they are called, not made
   ncc time part.cn --machine M --as tools -o tools.csv   what each tool does: ERP, setup sheet
+  ncc time --from payload part.json --as csv             the rows again, of a stored document
   ncc time --schema                                      JSON Schema of payload and ndjson
 
 What a machine does not state is taken for granted, and told. Nothing is printed of a program

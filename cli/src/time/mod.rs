@@ -14,6 +14,7 @@ mod course;
 mod progress;
 mod rows;
 pub(crate) mod running;
+mod stored;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -22,8 +23,8 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::source::Source;
-use ncc_driver::time::drive::Stage;
 use ncc_driver::time::columns;
+use ncc_driver::time::drive::Stage;
 use ncc_machines::Profile;
 
 use self::args::{Form, Time};
@@ -49,6 +50,9 @@ pub fn run(args: &Time, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
+    }
+    if args.reading.from.as_deref() == Some(stored::PAYLOAD) {
+        return stored::run(args, known);
     }
     check(args, known)?;
     let mut own = None;

@@ -297,3 +297,41 @@ fn a_parameter_that_the_machine_states_is_used_for_programs_in_the_text_form() {
     call("none.toml").exits(1).says("NC0226").says("`[options]` of a machine profile");
     call("own.toml").exits(0);
 }
+
+/// A stored payload gives the rows again, or says where it is wrong.
+#[test]
+fn a_payload_is_read_back() {
+    let folder = folder();
+    let folder = folder.path();
+    let with =
+        |arguments: &[&str]| time(folder, &[&MACHINE[..], &["good.cn", "-q"], arguments].concat()).exits(0);
+    let rows = with(&["--as", "csv"]).out;
+    with(&["--as", "payload", "-o", "good.json"]);
+    let stored =
+        |arguments: &[&str]| time(folder, &[&["--from", "payload", "good.json"], arguments].concat());
+    assert_eq!(stored(&["--as", "csv"]).exits(0).out, rows);
+    assert!(stored(&["--as", "canon"]).exits(0).out.contains("CHANGE_TOOL(1)\nCOMMENT(\"time 7.000000"));
+    stored(&["--as", "csv", "-o", "good.json"]).exits(2).says("never written over");
+    stored(&[]).exits(2).says("--as csv and --as canon");
+    stored(&["--as", "csv", "-m", "romi-discovery-4022"]).exits(2).says("has its times already");
+    with(&["--as", "payload", "--stage", "before", "-o", "before.json"]);
+    for form in ["csv", "canon"] {
+        time(folder, &["--from", "payload", "before.json", "--as", form]).exits(1).says("is not processed");
+    }
+    let good = std::fs::read_to_string(folder.join("good.json")).unwrap();
+    for (from, to, says) in [
+        ("\"x0\":", "\"x9\":", "line 6, column 54: unknown field `x9`"),
+        ("\"STRAIGHT_TRAVERSE\"", "\"MOVE\"", "unknown variant `MOVE`, expected one of `SELECT_TOOL`"),
+        ("\"time\":7.0", "\"time\":-7.0", "expected >= 0"),
+        ("\"cut_offset\":0,", "", "missing field `cut_offset`"),
+        ("  ]\n}", "", "EOF while parsing a list"),
+        ("\"parameters\":{}", "\"parameters\":[{},{}]", "invalid length 2"),
+        ("\"dialect\": \"mach9\",", "", "missing field `dialect`"),
+    ] {
+        let wrong = good.replacen(from, to, 1);
+        assert_ne!(wrong, good, "{from}");
+        write(folder, "wrong.json", wrong.as_bytes());
+        let done = time(folder, &["--from", "payload", "wrong.json", "--as", "csv"]).exits(1);
+        done.says("wrong.json is not a payload: line ").says(says);
+    }
+}

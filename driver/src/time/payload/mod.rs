@@ -9,19 +9,25 @@
 //! G25X30.Y130.I2J2    {"gcode":"G25","function_name":"RECTANGULAR_LAYOUT", … "feed":0,"speed":0,"tool":3, …}
 //! ```
 //!
-//! `writer` makes it of a program that runs. Not here: times.
+//! `writer` makes it of a program that runs, `reader` reads it back. Not here: times.
 
+pub mod listing;
+mod path;
 mod printed;
+mod reader;
+mod refusal;
 mod writer;
 
 use std::borrow::Cow;
 
 use ncc_dialects::Dialect;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::drive::Stage;
 
+pub use reader::read;
+pub use refusal::{Unread, Unusable, Why};
 pub use writer::Writer;
 
 /// The JSON Schema of the document and of the lines of its long form.
@@ -50,7 +56,8 @@ pub struct Header<'h> {
 }
 
 /// A block. Positions are the program's, mm; rotary axes, degrees, where the program moves any.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "reader::Read")]
 pub struct Block<'b> {
     /// The block of the source; in the printed form its G word alone.
     pub gcode: Cow<'b, str>,
@@ -105,6 +112,20 @@ pub struct Rotary {
     pub a1: f64,
     pub b1: f64,
     pub c1: f64,
+}
+
+/// A document that was read back.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Document {
+    /// The program's name.
+    pub prog_name: String,
+    /// The machine's name.
+    pub machine_name: String,
+    /// The name of the program's dialect.
+    pub dialect: String,
+    /// Its functions, in their order.
+    pub blocks: Vec<Block<'static>>,
 }
 
 /// How blocks stand in the output.
