@@ -108,8 +108,28 @@ fn same(computed: &str, printed: &str) -> bool {
 #[test]
 fn table_11_is_reproduced() {
     let Some(folder) = beside("cases/mach9") else { return };
-    let start = ["--start", "X-9,Y15.588,Z3", "--start-time", "84.191448"];
-    let ours = study(&start, &folder.join("table9.cn"));
+    is_table_11(&study(&FROM_TABLE_9, &folder.join("table9.cn")), &folder);
+}
+
+/// The same with the machine file of table 10, which names no control.
+#[test]
+fn table_11_comes_out_with_the_machine_file() {
+    let Some(folder) = beside("cases/mach9") else { return };
+    let own = Folder::new();
+    let machine = own.0.join("machine.json");
+    let table_10 = r#"{ "name": "romi", "tool_change_time": 7, "max_feed": 15000, "start_spindle_time": 2 }"#;
+    fs::write(&machine, table_10).expect("a file");
+    let machine = machine.to_string_lossy();
+    let options = ["--machine", &*machine, "--tool-change-on", "select", "--from", "mach9", "--as", "csv"];
+    let all = [&options[..], &FROM_TABLE_9].concat();
+    let ours = time(&all, &[&folder.join("table9.cn")]).expect("the program is executed");
+    is_table_11(&rows(&ours), &folder);
+}
+
+/// The state in which table 9 begins.
+const FROM_TABLE_9: [&str; 4] = ["--start", "X-9,Y15.588,Z3", "--start-time", "84.191448"];
+
+fn is_table_11(ours: &[Vec<String>], folder: &Path) {
     let printed = rows(&fs::read(folder.join("table11.csv")).expect("the table"));
     assert_eq!(printed.len(), 24);
     assert_eq!(ours.len(), printed.len());

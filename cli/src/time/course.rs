@@ -107,6 +107,7 @@ pub(crate) fn job(
     let own = shop.profile.as_ref();
     let named = match (args.reading.from.as_deref(), own) {
         (Some("auto"), _) | (None, None) => None,
+        (None, Some(profile)) if profile.any_control => None,
         (Some(id), _) => Some(known.dialect(id)?),
         (None, Some(profile)) => Some(profile.dialect),
     };
@@ -223,6 +224,7 @@ pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<Stri
         None => lines.push("no machine is named".to_owned()),
         // Canonical text and the text form are nobody's language.
         Some(_) if dialect.caps.flat || dialect.can.everything => {}
+        Some(profile) if profile.any_control => {}
         Some(profile) if profile.dialect.id != dialect.id => {
             lines.push(format!(
                 "the machine, whose control reads {}, carries it out all the same",

@@ -298,6 +298,34 @@ fn a_parameter_that_the_machine_states_is_used_for_programs_in_the_text_form() {
     call("own.toml").exits(0);
 }
 
+/// Table 10 as a file: the same times as of the profile that is shipped, of any dialect.
+#[test]
+fn the_machine_file_of_the_case_study() {
+    let folder = folder();
+    let folder = folder.path();
+    let table_10 = r#"{ "name": "romi", "tool_change_time": 7, "max_feed": 15000, "start_spindle_time": 2 }"#;
+    write(folder, "machine.json", table_10.as_bytes());
+    let rows = |machine: &str| {
+        time(folder, &["good.cn", "--from", "mach9", "-m", machine, "--as", "csv", "-q"]).exits(0).out
+    };
+    assert_eq!(rows("machine.json"), rows("romi-discovery-4022"));
+    let printed = time(folder, &["good.cn", "-m", "machine.json", "--as", "payload-printed", "-q"]).exits(0);
+    assert!(printed.out.contains("\"machine_name\": \"romi\""), "{}", printed.out);
+    write(
+        folder,
+        "fanuc.nc",
+        b"%\nO0001 (PART)\nG21 G17 G90 G94\nT1 M6\nS500 M3\nG0 X1.\nG43 H1 Z50.\nM30\n%\n",
+    );
+    let done = time(folder, &["fanuc.nc", "-m", "machine.json"]).exits(0).says("read as fanuc");
+    assert!(!done.out.contains("whose control"), "{}", done.out);
+    write(folder, "wrong.json", b"{ \"name\": \"romi\",\n  \"tool_change\": 7 }\n");
+    let done = time(folder, &["good.cn", "-m", "wrong.json"]).exits(2);
+    done.says("wrong.json:2:")
+        .says("unknown field `tool_change`, expected one of `name`, `tool_change_time`");
+    write(folder, "wrong.json", b"{ \"name\": \"romi\", \"max_feed\": 0 }\n");
+    time(folder, &["good.cn", "-m", "wrong.json"]).exits(2).says("NC0708").says("max_feed");
+}
+
 /// A stored payload gives the rows again, or says where it is wrong.
 #[test]
 fn a_payload_is_read_back() {
