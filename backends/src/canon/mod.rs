@@ -68,8 +68,8 @@ pub struct Writer {
     offset_waits: bool,
     /// In which form the text says origins.
     origin: Option<Origin>,
-    /// Whether the block whose values are written calls up the first work offset.
-    calls_first: bool,
+    /// The call of an origin by values that counts if the next statement activates the first work offset, and its place.
+    waiting: Option<(Vec<u8>, Fault, Span)>,
     begun: bool,
     /// Block numbers left out, and the first place.
     numbers: (u32, Span),
@@ -100,7 +100,7 @@ impl Writer {
             six: false,
             offset_waits: false,
             origin: None,
-            calls_first: false,
+            waiting: None,
             begun: false,
             numbers: (0, Span::default()),
             trace: None,
@@ -118,11 +118,7 @@ impl Writer {
             // Where Z is after a tool change, the source knows: it is named before this, or left as it is.
             self.at = Tracker { position: self.start, z_lost_at_change: true, ..Tracker::new(*assumed) };
         }
-        for (place, stmt) in stmts.iter().enumerate() {
-            if let Op::SetData(_) = stmt.op {
-                let next = stmts.get(place + 1).filter(|next| next.joined);
-                self.calls_first = next.is_some_and(|next| next.op == Op::SetOriginOffsets(FIRST));
-            }
+        for stmt in stmts {
             if let Some(lines) = packed(stmt) {
                 each_blocks(lines, |blocks| self.write(blocks, assumed, out, diags));
                 continue;
@@ -145,6 +141,7 @@ impl Writer {
 
     /// Ends the text.
     pub fn finish(&mut self, _out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        diags.extend(self.waiting.take().map(|(_, fault, span)| Diagnostic::new(fault, span)));
         let (count, place) = self.numbers;
         if count > 0 {
             diags.push(Diagnostic::new(Fault::NumbersLeftOut { count }, place));
@@ -191,6 +188,14 @@ impl Writer {
 
     #[inline]
     fn stmt(&mut self, s: &Stmt, assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        if let Some((call, fault, span)) = self.waiting.take() {
+            if s.op == Op::SetOriginOffsets(FIRST) && s.skip.is_none() {
+                out.extend_from_slice(&call);
+                self.origin = Some(Origin::Values);
+            } else {
+                diags.push(Diagnostic::new(fault, span));
+            }
+        }
         let line = out.len();
         if let Err((fault, out_of)) = self.call(s, assumed, out, diags) {
             out.truncate(line);
@@ -304,7 +309,7 @@ impl Writer {
                 self.offset_waits = true;
             }
             Op::UseToolLength(length) => self.tool_length(s, length, out, diags).map_err(here)?,
-            Op::SetData(data) => self.origin_by_values(s, data, out, diags).map_err(here)?,
+            Op::SetData(data) => return self.origin_by_values(s, data, out, diags).map_err(here),
             // The values have called it up.
             Op::SetOriginOffsets(FIRST) if self.origin == Some(Origin::Values) => return Ok(()),
             Op::SetOriginOffsets(n) => {

@@ -79,7 +79,8 @@ impl Writer {
         Ok(())
     }
 
-    /// The call of an origin by values: those of the first work offset, while it is active or called up in the block.
+    /// The call of an origin by values: those of the first work offset, while it is active or the next statement activates
+    /// it.
     pub(super) fn origin_by_values(
         &mut self,
         s: &Stmt,
@@ -92,18 +93,24 @@ impl Writer {
         };
         let values: Vec<&Expr> = words.iter().map_while(Option::as_ref).collect();
         let whole = matches!(values.len(), 3 | 6) && values.len() == words.iter().flatten().count();
-        let active = self.calls_first || self.at.modes.work_offset == Some(FIRST);
-        if !whole || !active || s.skip.is_some() || self.origin == Some(Origin::Number) {
+        if !whole || s.skip.is_some() || self.origin == Some(Origin::Number) {
             return Err(cannot(&s.op));
         }
         let values = values.into_iter().map(arguments::literal).collect::<Result<Vec<_>, _>>()?;
         self.use_units(values[0].unit, out);
-        self.begin(s, "SET_ORIGIN_OFFSETS", out);
+        let mut call = Vec::new();
+        self.begin(s, "SET_ORIGIN_OFFSETS", &mut call);
         for (place, value) in values.into_iter().enumerate() {
-            out.extend_from_slice(if place == 0 { b"" } else { b", " });
-            self.value(value, "origin", s.span, out, diags)?;
+            call.extend_from_slice(if place == 0 { b"" } else { b", " });
+            self.value(value, "origin", s.span, &mut call, diags)?;
         }
-        self.origin = Some(Origin::Values);
+        self.close(&mut call);
+        if self.at.modes.work_offset == Some(FIRST) {
+            out.extend_from_slice(&call);
+            self.origin = Some(Origin::Values);
+        } else {
+            self.waiting = Some((call, cannot(&s.op), s.span));
+        }
         Ok(())
     }
 
