@@ -26,8 +26,8 @@ use ncc_driver::review::verify::hashes::{self, Named};
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
 use ncc_driver::source::include_path::load_subprograms;
-use ncc_driver::time::drive::{Stage, Unwatched, drive};
-use ncc_driver::time::payload::{Header, Payload, Shape};
+use ncc_driver::time::drive::{Unwatched, drive};
+use ncc_driver::time::payload::{Header, Look, Writer};
 use ncc_driver::translate::{rewrite, tools_by_name, translate_recording};
 use ncc_ir::diag::Verdict;
 use ncc_machines::Profile;
@@ -236,8 +236,7 @@ fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outpu
     let title = profile.as_deref().map_or("", |profile| &profile.schema.title);
     let header = Header { prog_name: &one.file, machine_name: title, dialect: &job.from.dialect.id };
     let mut times = Vec::new();
-    let mut sink =
-        Payload::new(&header, &plan.machine, Shape::Document, Stage::After, &mut times).map_err(cannot)?;
+    let mut sink = Writer::new(&header, &plan.machine, Look::DOCUMENT, &mut times).map_err(cannot)?;
     let course = drive(&plan, &mut source, &mut sink, &mut Unwatched).map_err(cannot)?;
     sink.finish().map_err(cannot)?;
     let shown = source.shown.clone();

@@ -17,6 +17,7 @@
 mod check;
 mod control;
 mod fact;
+mod machine_json;
 mod maps;
 mod profile;
 pub mod project;

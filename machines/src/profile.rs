@@ -22,6 +22,8 @@ pub struct Profile {
     pub schema: Schema,
     /// The dictionary of its dialect, as it is without the profile.
     pub dialect: &'static Dialect,
+    /// Whether its file names no control, so that `dialect` says nothing of a program.
+    pub any_control: bool,
 }
 
 impl Profile {
@@ -55,7 +57,7 @@ impl Profile {
             wrong.sort_by_key(|error| error.span.start);
             return Err(wrong);
         }
-        Ok(Profile { schema, dialect })
+        Ok(Profile { schema, dialect, any_control: false })
     }
 
     /// Its name on the command line.
@@ -88,7 +90,7 @@ impl Profile {
             value: Vec::new(),
             emit: Default::default(),
         };
-        Profile { schema, dialect }
+        Profile { schema, dialect, any_control: false }
     }
 
     /// Adds an M code and its function, unless the profile or its dialect has the code.
@@ -217,7 +219,7 @@ pub(crate) fn form(error: &toml::de::Error, text: &str) -> ProfileError {
 }
 
 /// A place that is one: not behind the end, and between characters.
-fn inside(span: Range<usize>, text: &str) -> Range<usize> {
+pub(crate) fn inside(span: Range<usize>, text: &str) -> Range<usize> {
     let within =
         |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
     let (start, end) = (within(span.start), within(span.end));

@@ -1,6 +1,6 @@
 //! Straight-line programs of canonical functions, one call a line: `reference/canon.md` for the
 //! functions, their own description for the print (`_` for an axis that stays, `/` for block skip,
-//! numbers of work offsets and length entries).
+//! numbers of work offsets and length entries; NIST's own forms of both beside them, and centimetres).
 
 use super::{Corner, Halt, Machine, Per, Setup, Spindle, What};
 
@@ -10,6 +10,7 @@ use super::{Corner, Halt, Machine, Per, Setup, Spindle, What};
 /// The program is wrong, or out of scope.
 pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     let mut m = Machine::new(setup);
+    let mut centimetres = false;
     // These hold at the start of every such text.
     (m.inch, m.absolute, m.plane) = (false, true, 17);
     for (index, line) in String::from_utf8_lossy(text).lines().enumerate() {
@@ -34,7 +35,10 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         }
         let Some(arguments) = rest.strip_suffix(')') else { return m.halt("no closing bracket") };
         let arguments: Vec<&str> = arguments.split(',').map(str::trim).filter(|a| !a.is_empty()).collect();
-        if call(&mut m, name, &arguments)? {
+        if let ("USE_LENGTH_UNITS", [unit]) = (name, &arguments[..]) {
+            centimetres = *unit == "CANON_UNITS_CM";
+        }
+        if call(&mut m, name, &arguments, centimetres)? {
             return Ok(m);
         }
     }
@@ -54,8 +58,12 @@ fn only(m: &Machine, arguments: &[&str]) -> Result<f64, Halt> {
 }
 
 /// Runs a call; true at the end of the program.
-fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
-    let unit = if m.inch { 25.4 } else { 1.0 };
+fn call(m: &mut Machine, name: &str, a: &[&str], centimetres: bool) -> Result<bool, Halt> {
+    let unit = match (m.inch, centimetres) {
+        (true, _) => 25.4,
+        (false, true) => 10.0,
+        (false, false) => 1.0,
+    };
     match (name, a) {
         ("CLEAR_ORIGIN_SHIFT", []) => {}
         ("STOP_CUTTER_RADIUS_COMPENSATION", []) => m.go_on(),
@@ -82,11 +90,21 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let angle = only(m, a)?;
             m.orient(Some(angle));
         }
-        ("USE_LENGTH_UNITS", ["CANON_UNITS_MM"]) => m.inch = false,
+        ("USE_LENGTH_UNITS", ["CANON_UNITS_MM" | "CANON_UNITS_CM"]) => m.inch = false,
         ("USE_LENGTH_UNITS", ["CANON_UNITS_INCHES"]) => m.inch = true,
         ("SELECT_PLANE", ["CANON_PLANE_XY"]) => m.plane = 17,
         ("SELECT_PLANE", ["CANON_PLANE_XZ"]) => m.plane = 18,
         ("SELECT_PLANE", ["CANON_PLANE_YZ"]) => m.plane = 19,
+        // NIST's own: the origin at a point in machine coordinates.
+        ("SET_ORIGIN_OFFSETS", _) if a.len() == 3 || a.len() == 6 => {
+            let mut zero = [None; 6];
+            for (axis, value) in a.iter().enumerate() {
+                zero[axis] = Some(number(m, value)? * if axis < 3 { unit } else { 1.0 });
+            }
+            m.store_zero(1, zero, false);
+            m.use_offset(1);
+        }
+        ("SET_TRAVERSE_RATE", _) => drop(only(m, a)?),
         ("SET_ORIGIN_OFFSETS", _) => {
             let offset = only(m, a)? as u32;
             m.use_offset(offset);
@@ -111,6 +129,10 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             }
             m.change_tool()?;
         }
+        ("USE_TOOL_LENGTH_OFFSET", [length]) if length.contains('.') => {
+            let length = number(m, length)? * unit;
+            m.use_stated_length(length, false);
+        }
         ("USE_TOOL_LENGTH_OFFSET", _) => {
             let entry = only(m, a)? as u32;
             m.use_length(entry);
@@ -126,7 +148,7 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             m.record(What::Dwell(seconds));
         }
         ("STRAIGHT_TRAVERSE" | "STRAIGHT_FEED", _) if a.len() == 3 || a.len() == 6 => {
-            let to = place(m, a, [0, 1, 2, 3, 4, 5])?;
+            let to = place(m, a, [0, 1, 2, 3, 4, 5], unit)?;
             match name {
                 "STRAIGHT_TRAVERSE" => m.traverse(to),
                 // A move that goes nowhere needs no feed.
@@ -147,7 +169,7 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             if rotation == 0.0 || rotation.fract() != 0.0 {
                 return m.halt("an arc of no turn, or of a part of one");
             }
-            let to = place(m, &ends, [first, second, normal, 3, 4, 5])?;
+            let to = place(m, &ends, [first, second, normal, 3, 4, 5], unit)?;
             m.arc_of_turns(to, centre, rotation < 0.0, rotation.abs() as u32 - 1)?;
             m.begin_block();
         }
@@ -172,11 +194,11 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
 }
 
 /// A place of which each argument names an axis; `_` stays.
-fn place(m: &mut Machine, arguments: &[&str], axes: [usize; 6]) -> Result<super::Place, Halt> {
+fn place(m: &mut Machine, arguments: &[&str], axes: [usize; 6], unit: f64) -> Result<super::Place, Halt> {
     let mut words = [None; 6];
     for (argument, axis) in arguments.iter().zip(axes) {
         if *argument != "_" {
-            let unit = if m.inch && axis < 3 { 25.4 } else { 1.0 };
+            let unit = if axis < 3 { unit } else { 1.0 };
             words[axis] = Some(number(m, argument)? * unit);
         }
     }

@@ -61,6 +61,7 @@ mod text_forms;
 mod tidy;
 mod time;
 mod time_modes;
+mod time_stored;
 mod tool_files;
 mod twice;
 mod variants;

@@ -79,6 +79,13 @@ fn check(schema: &Value, root: &Value, value: &Value, at: &str, wrong: &mut Vec<
                     }
                 }
             }
+            "minItems" | "maxItems" => {
+                let limit = rule.as_u64().expect("a number") as usize;
+                let count = value.as_array().map_or(limit, Vec::len);
+                if (keyword == "minItems" && count < limit) || (keyword == "maxItems" && count > limit) {
+                    wrong.push(format!("{at}: {count} entries"));
+                }
+            }
             "items" => {
                 for (i, item) in value.as_array().into_iter().flatten().enumerate() {
                     check(rule, root, item, &format!("{at}/{i}"), wrong);
@@ -129,7 +136,7 @@ fn faults(part: &str, value: &Value) -> Vec<String> {
     wrong
 }
 
-/// Every program of the corpus, in both stages and both forms.
+/// Every program of the corpus, in both stages and all forms.
 #[test]
 fn every_document_is_as_the_schema_says() {
     let mut failures = Failures::default();
@@ -142,6 +149,9 @@ fn every_document_is_as_the_schema_says() {
                 let what = format!("{dialect}/{} {stage}", program.file);
                 let Ok(text) = time(&[&arguments[..], &["payload"]].concat(), &[&path]) else { continue };
                 let Ok(lines) = time(&[&arguments[..], &["ndjson"]].concat(), &[&path]) else { continue };
+                let printed =
+                    time(&[&arguments[..], &["payload-printed"]].concat(), &[&path]).expect("it is timed");
+                let printed: Value = serde_json::from_slice(&printed).expect("JSON");
                 let document: Value = match serde_json::from_slice(&text) {
                     Ok(document) => document,
                     Err(fault) => {
@@ -157,6 +167,11 @@ fn every_document_is_as_the_schema_says() {
                 wrong.extend(faults("/$defs/header", &lines[0]));
                 if document["blocks"].as_array().map(Vec::as_slice) != Some(&lines[1..]) {
                     wrong.push("the lines are not the document's blocks".to_owned());
+                }
+                wrong.extend(faults("", &printed));
+                let blocks = |document: &Value| document["blocks"].as_array().map(Vec::len);
+                if blocks(&document) != blocks(&printed) {
+                    wrong.push("the printed form has other blocks".to_owned());
                 }
                 wrong.truncate(3);
                 if !wrong.is_empty() {
@@ -176,13 +191,14 @@ fn wrong_documents_are_seen() {
     let path = corpus::root().join("tests/time/teste-before.json");
     let good: Value = serde_json::from_slice(&fs::read(path).expect("a document")).expect("JSON");
     assert_eq!(faults("", &good), [""; 0]);
-    let wrong: [(&str, Value); 8] = [
+    let wrong: [(&str, Value); 9] = [
         ("/blocks/0/time", json!(-1.0)),
         ("/blocks/0/time", json!("1")),
         ("/blocks/0/tool", json!(1.5)),
         ("/blocks/0/function_name", json!("MOVE")),
         ("/blocks/0/cut_offset", json!(-1)),
         ("/blocks/0/parameters", json!({ "z": [1] })),
+        ("/blocks/0/parameters", json!([{}, {}])),
         ("/machine_name", json!(null)),
         ("/blocks", json!({})),
     ];

@@ -108,8 +108,28 @@ fn same(computed: &str, printed: &str) -> bool {
 #[test]
 fn table_11_is_reproduced() {
     let Some(folder) = beside("cases/mach9") else { return };
-    let start = ["--start", "X-9,Y15.588,Z3", "--start-time", "84.191448"];
-    let ours = study(&start, &folder.join("table9.cn"));
+    is_table_11(&study(&FROM_TABLE_9, &folder.join("table9.cn")), &folder);
+}
+
+/// The same with the machine file of table 10, which names no control.
+#[test]
+fn table_11_comes_out_with_the_machine_file() {
+    let Some(folder) = beside("cases/mach9") else { return };
+    let own = Folder::new();
+    let machine = own.0.join("machine.json");
+    let table_10 = r#"{ "name": "romi", "tool_change_time": 7, "max_feed": 15000, "start_spindle_time": 2 }"#;
+    fs::write(&machine, table_10).expect("a file");
+    let machine = machine.to_string_lossy();
+    let options = ["--machine", &*machine, "--tool-change-on", "select", "--from", "mach9", "--as", "csv"];
+    let all = [&options[..], &FROM_TABLE_9].concat();
+    let ours = time(&all, &[&folder.join("table9.cn")]).expect("the program is executed");
+    is_table_11(&rows(&ours), &folder);
+}
+
+/// The state in which table 9 begins.
+const FROM_TABLE_9: [&str; 4] = ["--start", "X-9,Y15.588,Z3", "--start-time", "84.191448"];
+
+fn is_table_11(ours: &[Vec<String>], folder: &Path) {
     let printed = rows(&fs::read(folder.join("table11.csv")).expect("the table"));
     assert_eq!(printed.len(), 24);
     assert_eq!(ours.len(), printed.len());
@@ -123,6 +143,29 @@ fn table_11_is_reproduced() {
             };
             assert!(good, "row {k}, {}: {own} is not {value}", printed[0]);
         }
+    }
+}
+
+/// The blocks that the case study prints of its document (ch. 5): G81, G25 and G80 of the third tool. Its G81 has the
+/// parameters of the second tool, z -6 and f 191, which is a slip: the block says Z-8 and F186.
+#[test]
+fn the_printed_form_is_the_case_studys() {
+    let printed = [
+        r#""cut_offset":0,"feed":186,"speed":1857,"tool":3,"dx":0.0,"dy":0.0,"dz":0.0,"distance":0.0,"time":0.0,"timestamp":0.0,"parameters":[{"z":-8.0,"r":3.0,"f":186}]}"#,
+        r#""cut_offset":0,"feed":0,"speed":0,"tool":3,"dx":0.0,"dy":0.0,"dz":0.0,"distance":0.0,"time":0.0,"timestamp":0.0,"parameters":[{"x":30.0,"y":130.0,"i":2,"j":2}]}"#,
+        r#""cut_offset":0,"feed":0,"speed":1857,"tool":3,"dx":0.0,"dy":0.0,"dz":0.0,"distance":0.0,"time":0.0,"timestamp":0.0,"parameters":[{}]}"#,
+    ];
+    let names = [("G81", "START_CYCLE"), ("G25", "RECTANGULAR_LAYOUT"), ("G80", "END_CYCLE")]
+        .map(|(gcode, name)| format!(r#"{{"gcode":"{gcode}","function_name":"{name}","x0":"#));
+    let machine = ["--machine", "romi-discovery-4022", "--as", "payload-printed", "--stage", "before"];
+    let all = [&machine[..], &["--from-option", "o_word=ignore"]].concat();
+    let text =
+        time(&all, &[&corpus::root().join("corpus/mach9/table9.cn")]).expect("the program is executed");
+    let text = String::from_utf8(text).expect("text");
+    assert!(text.contains(r#""machine_name": "romi-discovery-4022""#), "{text}");
+    for (name, printed) in names.iter().zip(printed) {
+        let block = text.lines().find(|line| line.trim().starts_with(name)).expect("the block");
+        assert!(block.trim().trim_end_matches(',').ends_with(printed), "{block}");
     }
 }
 
@@ -154,6 +197,27 @@ const SESSIONS: &[(&str, &[&str], &[&str])] = &[
         "teste-before.json",
         &["--machine", "romi-discovery-4022", "--as", "payload", "--stage", "before"],
         &["mach9/teste.cn"],
+    ),
+    (
+        "table9-printed-before.json",
+        &[
+            "--machine",
+            "romi-discovery-4022",
+            "--as",
+            "payload-printed",
+            "--stage",
+            "before",
+            "--start",
+            "X-9,Y15.588,Z3",
+            "--from-option",
+            "o_word=ignore",
+        ],
+        &["mach9/table9.cn"],
+    ),
+    (
+        "table9-printed.json",
+        &["--machine", "romi-discovery-4022", "--as", "payload-printed", "--start", "X-9,Y15.588,Z3"],
+        &["mach9/table9.cn"],
     ),
     ("teste.canon", &["--machine", "romi-discovery-4022", "--as", "canon"], &["mach9/teste.cn"]),
     (

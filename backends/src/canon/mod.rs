@@ -40,6 +40,16 @@ struct Decimals {
     speed: u8,
 }
 
+/// The work offset that an origin by values is.
+const FIRST: u16 = 1;
+
+/// How a text says origins: by the number of a work offset, or by values, never both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    Number,
+    Values,
+}
+
 /// Writes the canonical stream.
 pub struct Writer {
     eol: &'static [u8],
@@ -56,6 +66,10 @@ pub struct Writer {
     six: bool,
     /// Whether a length offset waits for the next Z word.
     offset_waits: bool,
+    /// In which form the text says origins.
+    origin: Option<Origin>,
+    /// The call of an origin by values that counts if the next statement activates the first work offset, and its place.
+    waiting: Option<(Vec<u8>, Fault, Span)>,
     begun: bool,
     /// Block numbers left out, and the first place.
     numbers: (u32, Span),
@@ -85,6 +99,8 @@ impl Writer {
             feed_mode: Some(FeedMode::PerMinute),
             six: false,
             offset_waits: false,
+            origin: None,
+            waiting: None,
             begun: false,
             numbers: (0, Span::default()),
             trace: None,
@@ -125,6 +141,7 @@ impl Writer {
 
     /// Ends the text.
     pub fn finish(&mut self, _out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        diags.extend(self.waiting.take().map(|(_, fault, span)| Diagnostic::new(fault, span)));
         let (count, place) = self.numbers;
         if count > 0 {
             diags.push(Diagnostic::new(Fault::NumbersLeftOut { count }, place));
@@ -171,6 +188,14 @@ impl Writer {
 
     #[inline]
     fn stmt(&mut self, s: &Stmt, assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        if let Some((call, fault, span)) = self.waiting.take() {
+            if s.op == Op::SetOriginOffsets(FIRST) && s.skip.is_none() {
+                out.extend_from_slice(&call);
+                self.origin = Some(Origin::Values);
+            } else {
+                diags.push(Diagnostic::new(fault, span));
+            }
+        }
         let line = out.len();
         if let Err((fault, out_of)) = self.call(s, assumed, out, diags) {
             out.truncate(line);
@@ -283,7 +308,15 @@ impl Writer {
                 write_whole(arguments::count(n, "USE_TOOL_LENGTH_OFFSET").map_err(here)?, out);
                 self.offset_waits = true;
             }
+            Op::UseToolLength(length) => self.tool_length(s, length, out, diags).map_err(here)?,
+            Op::SetData(data) => return self.origin_by_values(s, data, out, diags).map_err(here),
+            // The values have called it up.
+            Op::SetOriginOffsets(FIRST) if self.origin == Some(Origin::Values) => return Ok(()),
             Op::SetOriginOffsets(n) => {
+                if self.origin == Some(Origin::Values) {
+                    return Err(here(cannot(&s.op)));
+                }
+                self.origin = Some(Origin::Number);
                 self.open(s, out);
                 write_whole(u64::from(*n), out);
             }
@@ -328,8 +361,6 @@ impl Writer {
             | Op::Probe(_)
             | Op::Detour(_)
             | Op::GoToReference(_)
-            | Op::SetData(_)
-            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)

@@ -2,10 +2,11 @@
 
 use ncc_ir::canon::{Modes, PathMode, Plane, Side, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::expr::Expr;
 use ncc_ir::expr::num::Unit;
-use ncc_ir::program::{CutterRadius, PathControl, Stmt};
+use ncc_ir::program::{CutterRadius, Data, DataMode, PathControl, Stmt, ToolLength};
 
-use super::{Writer, arguments, cannot};
+use super::{FIRST, Origin, Writer, arguments, cannot};
 use crate::common::quoted::write_whole;
 
 impl Writer {
@@ -78,7 +79,59 @@ impl Writer {
         Ok(())
     }
 
-    /// Says the plane, if another one is active.
+    /// The call of an origin by values: those of the first work offset, while it is active or the next statement activates
+    /// it.
+    pub(super) fn origin_by_values(
+        &mut self,
+        s: &Stmt,
+        data: &Data,
+        out: &mut Vec<u8>,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), Fault> {
+        let Data::Offset { offset: FIRST, mode: DataMode::Set, words, turn: None } = data else {
+            return Err(cannot(&s.op));
+        };
+        let values: Vec<&Expr> = words.iter().map_while(Option::as_ref).collect();
+        let whole = matches!(values.len(), 3 | 6) && values.len() == words.iter().flatten().count();
+        if !whole || s.skip.is_some() || self.origin == Some(Origin::Number) {
+            return Err(cannot(&s.op));
+        }
+        let values = values.into_iter().map(arguments::literal).collect::<Result<Vec<_>, _>>()?;
+        self.use_units(values[0].unit, out);
+        let mut call = Vec::new();
+        self.begin(s, "SET_ORIGIN_OFFSETS", &mut call);
+        for (place, value) in values.into_iter().enumerate() {
+            call.extend_from_slice(if place == 0 { b"" } else { b", " });
+            self.value(value, "origin", s.span, &mut call, diags)?;
+        }
+        self.close(&mut call);
+        if self.at.modes.work_offset == Some(FIRST) {
+            out.extend_from_slice(&call);
+            self.origin = Some(Origin::Values);
+        } else {
+            self.waiting = Some((call, cannot(&s.op), s.span));
+        }
+        Ok(())
+    }
+
+    /// The call of a length that stands in no table: a number with a decimal point.
+    pub(super) fn tool_length(
+        &mut self,
+        s: &Stmt,
+        length: &ToolLength,
+        out: &mut Vec<u8>,
+        diags: &mut Vec<Diagnostic>,
+    ) -> Result<(), Fault> {
+        let ToolLength::Value(value) = length else { return Err(cannot(&s.op)) };
+        let value = arguments::literal(value)?;
+        self.use_units(value.unit, out);
+        self.begin(s, "USE_TOOL_LENGTH_OFFSET", out);
+        self.value(value, "length", s.span, out, diags)?;
+        self.offset_waits = true;
+        Ok(())
+    }
+
+    /// States the plane, if another one is active.
     pub(super) fn use_plane(&mut self, plane: Plane, out: &mut Vec<u8>) {
         if self.plane != Some(plane) {
             out.extend_from_slice(b"SELECT_PLANE(");

@@ -86,7 +86,7 @@ pub fn find(name: &str, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
         message: format!("{name} is not UTF-8 text"),
         help: vec!["a profile is a TOML file".to_owned()],
     })?;
-    Profile::parse(&text, &|id| known.get(id)).map_err(|wrong| {
+    Profile::parse_named(name, &text, &|id| known.get(id)).map_err(|wrong| {
         // If stderr cannot be written, the exit code has to say it all.
         let _ = print(name, &text, &wrong, err);
         let first = wrong.first().map(|error| place(&text, error.span.start)).unwrap_or_default();

@@ -15,6 +15,7 @@ Examples:
   ncc time part.cn --machine M --as payload              the same as a JSON document
   ncc time part.cn --as payload --stage before           cycles as they are called, not made
   ncc time part.cn --machine M --as tools -o tools.csv   what each tool does: ERP, setup sheet
+  ncc time --from payload part.json --as csv             the rows again, of a stored document
   ncc time --schema                                      JSON Schema of payload and ndjson
 
 What a machine does not state is assumed, and reported. Nothing is printed of a program
@@ -83,6 +84,8 @@ pub enum Form {
     Csv,
     /// Every function, as one JSON document
     Payload,
+    /// The same, with the fields as the case study prints them
+    PayloadPrinted,
     /// Every function, as JSON, one a line
     Ndjson,
     /// The canonical functions, with times in comments; not of edges above 1, nor of a move in machine
@@ -95,8 +98,13 @@ impl Form {
     pub(super) fn takes_several(self) -> bool {
         match self {
             Form::Summary | Form::Json | Form::Markdown | Form::Tools => true,
-            Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => false,
+            Form::Csv | Form::Payload | Form::PayloadPrinted | Form::Ndjson | Form::Canon => false,
         }
+    }
+
+    /// Whether it can tell of cycles as they are called.
+    pub(super) fn takes_stages(self) -> bool {
+        matches!(self, Form::Payload | Form::PayloadPrinted | Form::Ndjson)
     }
 
     /// Its name on the command line.

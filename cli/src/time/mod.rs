@@ -10,80 +10,36 @@
 //! ```
 
 pub mod args;
+mod course;
 mod progress;
+mod rows;
 pub(crate) mod running;
+mod stored;
 
-use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::Path;
 use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_dialects::{BREAK_LIFT, PECK_CLEARANCE, Settings};
-use ncc_driver::guess::better;
-use ncc_driver::job::options::{choose, state_units};
-use ncc_driver::job::{Failure, Job, Output};
-use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem};
-use ncc_driver::questions::{self, Policy};
-use ncc_driver::render::{About, summary as account};
-use ncc_driver::render::{Loudness, human};
-use ncc_driver::source::{Source, include_path};
-use ncc_driver::time::drive::{Course, Plan, Sink, Stage, drive};
-use ncc_driver::time::payload::{self, Header};
-use ncc_driver::time::{assumed, canon, columns, csv, duration};
-use ncc_ir::canon::Axis;
-use ncc_ir::expr::num::{Nanos, ONE};
+use ncc_driver::source::Source;
+use ncc_driver::time::columns;
+use ncc_driver::time::drive::Stage;
 use ncc_machines::Profile;
-use ncc_machines::reading::Side;
-use ncc_time::{AssumedFact, Machine};
 
 use self::args::{Form, Time};
-use self::progress::Progress;
+pub(crate) use self::course::{Shop, assumptions, execute, job, plan};
+use self::course::{Spool, destination};
+pub(crate) use self::rows::say;
 use crate::files::{self, Destination};
-use crate::m_codes;
 use crate::milling::{self, Voice};
 use crate::project::{self, Sides, Stated};
 use crate::registry::DialectRegistry;
-use crate::registry::recognised::recognise_all;
 pub use ncc_driver::time::payload::SCHEMA;
 use ncc_driver::time::summary::Report;
 use ncc_driver::time::summary::Timing;
 use ncc_driver::time::tally::Tallier;
 use ncc_driver::time::tally::Tally;
-use ncc_driver::translate::translate;
-
-/// The machine of a call, as the model sees it.
-pub(crate) struct Shop {
-    pub(crate) profile: Option<Profile>,
-    machine: Machine,
-    /// What the model assumes of it.
-    assumed: Vec<AssumedFact>,
-}
-
-impl Shop {
-    /// `own` is the machine of a project file, which counts where the command line names none.
-    pub(crate) fn of(
-        args: &Time,
-        own: Option<&Profile>,
-        known: &DialectRegistry,
-        err: &mut dyn WriteColor,
-    ) -> Result<Shop, Problem> {
-        let profile = match &args.setting.machine {
-            Some(name) => Some(crate::machines::find(name, known, err)?),
-            None => own.cloned(),
-        };
-        let mut machine = profile.as_ref().map(Profile::machine).unwrap_or_default();
-        if let Some(on) = args.setting.tool_change_on {
-            machine.tool_change_on = on;
-        }
-        let (machine, assumed) = machine.assumed(args.setting.model);
-        Ok(Shop { profile, machine, assumed })
-    }
-
-    pub(crate) fn title(&self) -> &str {
-        self.profile.as_ref().map_or("", |p| &p.schema.title)
-    }
-}
 
 /// Runs the verb.
 ///
@@ -94,6 +50,9 @@ pub fn run(args: &Time, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
+    }
+    if args.reading.from.as_deref() == Some(stored::PAYLOAD) {
+        return stored::run(args, known);
     }
     check(args, known)?;
     let mut own = None;
@@ -120,7 +79,7 @@ pub fn run(args: &Time, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
     let shop = Shop::of(args, own.as_ref().map(|(profile, _)| &**profile), known, err)?;
     let destination = destination(args, &sources)?;
     destination.check()?;
-    let mut spool = Spool { output: Output::new() };
+    let mut spool = Spool::default();
     match args.form {
         Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
             let report = summaries(args, &shop, known, &mut sources, &mut lost, err)?;
@@ -136,9 +95,9 @@ pub fn run(args: &Time, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
             }
             Ok(lost.exit)
         }
-        Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => {
+        Form::Csv | Form::Payload | Form::PayloadPrinted | Form::Ndjson | Form::Canon => {
             let exit = match sources.first_mut() {
-                Some(source) => stream(args, &shop, known, source, &mut spool, err)?,
+                Some(source) => rows::stream(args, &shop, known, source, &mut spool, err)?,
                 None => Exit::Usage,
             };
             if exit == Exit::Done {
@@ -234,181 +193,13 @@ fn check(args: &Time, known: &DialectRegistry) -> Result<(), Problem> {
             "call ncc once for each of them; summary, json, markdown and tools take several",
         ));
     }
-    if Stage::from(args.stage) == Stage::Before && !matches!(args.form, Form::Payload | Form::Ndjson) {
+    if Stage::from(args.stage) == Stage::Before && !args.form.takes_stages() {
         return Err(Problem::usage(
             format!("--stage before with --as {}", args.form.name()),
-            "only payload and ndjson tell of cycles as they are called",
+            "only payload, payload-printed and ndjson tell of cycles as they are called",
         ));
     }
     Ok(())
-}
-
-fn destination(args: &Time, sources: &[Source]) -> Result<Destination, Problem> {
-    let name: Option<&PathBuf> = args.output.as_ref().filter(|name| *name != Path::new("-"));
-    for source in sources {
-        source.guard(name.map(PathBuf::as_path))?;
-    }
-    Ok(name.map_or(Destination::Stdout, |name| Destination::File(name.clone())))
-}
-
-/// What is written before it may be used.
-struct Spool {
-    output: Output,
-}
-
-impl Write for Spool {
-    fn write(&mut self, text: &[u8]) -> io::Result<usize> {
-        self.output.push(text)?;
-        Ok(text.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-/// A program as a translation into itself: so its diagnostics are reported.
-pub(crate) fn job(
-    args: &Time,
-    shop: &Shop,
-    known: &DialectRegistry,
-    source: &mut Source,
-    err: &mut dyn WriteColor,
-) -> Result<Job, Problem> {
-    let own = shop.profile.as_ref();
-    let named = match (args.reading.from.as_deref(), own) {
-        (Some("auto"), _) | (None, None) => None,
-        (Some(id), _) => Some(known.dialect(id)?),
-        (None, Some(profile)) => Some(profile.dialect),
-    };
-    let (dialect, rivals) = match named {
-        Some(dialect) => (dialect, Vec::new()),
-        None => recognise_all(source, !args.telling.quiet, known, err)?,
-    };
-    // What a profile states of its control holds for programs in that control's language.
-    let machines = match own.filter(|profile| profile.dialect.id == dialect.id) {
-        Some(profile) => {
-            let profile = Arc::new(profile.clone());
-            Machines { from: Some(Arc::clone(&profile)), to: Some(profile) }
-        }
-        None => Machines::default(),
-    };
-    let mut from = choose(machines.settings(Side::From, dialect), &args.reading.from_option)?;
-    state_units(&mut from, known.units())?;
-    m_codes::state(&mut from, Side::From, known)?;
-    include_path::load_subprograms(source, &from, known.folders(), &files::Disk)?;
-    source.rewind()?;
-    Ok(Job {
-        machines,
-        called: source.called.clone(),
-        project: source.project.clone(),
-        rivals,
-        start: args.setting.standing.start.unwrap_or_default(),
-        given: args.setting.holding.read()?,
-        ..Job::new(from.clone(), from, &source.name)
-    })
-}
-
-pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
-    Plan {
-        job,
-        machine: shop.machine.clone(),
-        tables: shop.profile.as_ref().map(Profile::tables).unwrap_or_default(),
-        parameters: [PECK_CLEARANCE, BREAK_LIFT].map(|option| own_parameter(shop.profile.as_ref()?, option)),
-        model: args.setting.model,
-        skip: args.setting.switches.on(),
-        start_time: args.setting.start_time,
-        stage: args.stage.into(),
-        // Cycles that are reported as they are called have no times.
-        centre: Stage::from(args.stage) == Stage::After,
-    }
-}
-
-/// What a machine's profile states of a parameter of its control, for programs in a language that has no
-/// such option.
-fn own_parameter(profile: &Profile, option: &str) -> Option<Nanos> {
-    let stated = profile.schema.options.iter().find(|(name, _)| name.get_ref() == option)?;
-    let mm: f64 = stated.1.value.as_ref()?.0.parse().ok()?;
-    Some((mm * ONE as f64).round() as Nanos)
-}
-
-/// Executes a program and tells what was found.
-pub(crate) fn execute(
-    args: &Time,
-    plan: &Plan,
-    known: &DialectRegistry,
-    source: &mut Source,
-    sink: &mut dyn Sink,
-    err: &mut dyn WriteColor,
-) -> Result<Course, Problem> {
-    let bytes = source.bytes().unwrap_or_default();
-    let course = {
-        let mut progress = Progress::new(&source.name, bytes, !args.telling.quiet);
-        drive(plan, source, sink, &mut progress).map_err(|e| Problem::file("time", &source.shown, &e))?
-    };
-    if !args.telling.quiet {
-        questions::note(plan.job, source, &course.diagnostics, !course.refused, err)?;
-    }
-    // Messages that cannot be written change nothing about what was done.
-    let _ = tell(args, plan, known, source, &course, err);
-    Ok(course)
-}
-
-fn tell(
-    args: &Time,
-    plan: &Plan,
-    known: &DialectRegistry,
-    source: &mut Source,
-    course: &Course,
-    err: &mut dyn WriteColor,
-) -> io::Result<()> {
-    let loudness = args.telling.loudness();
-    let shown = source.shown.clone();
-    let other = match course.refused {
-        false => None,
-        true => better(&mut source.file, &plan.job.from, known.all())?,
-    };
-    let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
-    // What is wrong with a text in another language is nothing that anybody wants to know.
-    if other.is_none() || args.telling.quiet {
-        human::print(err, &mut about, &course.diagnostics, loudness)?;
-    }
-    if course.refused && !args.telling.quiet {
-        let others = args.files.len() > 1 && args.form.takes_several();
-        let rest = if others { "" } else { "; nothing was written" };
-        writeln!(err, "{shown}: not timed{rest}")?;
-        if let Some((other, reasons)) = other {
-            let read = &plan.job.from.dialect.id;
-            writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
-            writeln!(err, "  it was read as {read}, in which it has errors\n  help: --from {}", other.id)?;
-        }
-    }
-    err.flush()
-}
-
-/// What a program's timing assumes.
-pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
-    let mut lines = Vec::new();
-    let dialect = plan.job.from.dialect;
-    match &shop.profile {
-        None => lines.push("no machine is named".to_owned()),
-        // Canonical text and the text form are nobody's language.
-        Some(_) if dialect.caps.flat || dialect.can.everything => {}
-        Some(profile) if profile.dialect.id != dialect.id => {
-            lines.push(format!(
-                "the machine, whose control reads {}, carries it out all the same",
-                profile.dialect.id
-            ));
-        }
-        Some(_) => {}
-    }
-    if let Some(profile) = &shop.profile {
-        lines.extend(assumed::of_profile(profile));
-    }
-    lines.extend(assumed::of_machine(plan, &shop.assumed, course));
-    lines.extend(assumed::of_run(plan, course));
-    lines.extend(assumed::of_program(plan.job, &course.diagnostics));
-    lines
 }
 
 /// Programs that are counted.
@@ -471,129 +262,8 @@ fn write_report(args: &Time, report: &Report, spool: &mut Spool) -> io::Result<(
         Form::Json => report.json(spool),
         Form::Markdown => spool.write_all(report.markdown(args.setting.model).as_bytes()),
         Form::Tools => report.tool_list(spool),
-        Form::Summary | Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => {
+        Form::Summary | Form::Csv | Form::Payload | Form::PayloadPrinted | Form::Ndjson | Form::Canon => {
             spool.write_all(report.plain(args.setting.model).as_bytes())
         }
     }
-}
-
-/// A program of which every function is reported.
-fn stream(
-    args: &Time,
-    shop: &Shop,
-    known: &DialectRegistry,
-    source: &mut Source,
-    spool: &mut Spool,
-    err: &mut dyn WriteColor,
-) -> Result<Exit, Problem> {
-    let job = job(args, shop, known, source, err)?;
-    let name = source.name.clone();
-    let cannot = |e: io::Error| Problem::file("time", &name, &e);
-    let plan = plan(args, shop, &job);
-    let mut out = BufWriter::with_capacity(1 << 16, spool);
-    let course = match args.form {
-        Form::Csv => {
-            let mut sink = csv::Csv::new(&shop.machine, &mut out).map_err(cannot)?;
-            let course = execute(args, &plan, known, source, &mut sink, err)?;
-            sink.finish().map_err(cannot)?;
-            course
-        }
-        Form::Canon => match canonical(args, shop, &plan, source, &mut out, err)? {
-            Ok(course) => course,
-            Err(failure) => return Ok(failure.exit()),
-        },
-        Form::Payload | Form::Ndjson | Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
-            let header =
-                Header { prog_name: &name, machine_name: shop.title(), dialect: &job.from.dialect.id };
-            let shape = match args.form {
-                Form::Ndjson => payload::Shape::Lines,
-                _ => payload::Shape::Document,
-            };
-            let stage = Stage::from(args.stage);
-            let sink = payload::Payload::new(&header, &shop.machine, shape, stage, &mut out);
-            let mut sink = sink.map_err(cannot)?;
-            let course = execute(args, &plan, known, source, &mut sink, err)?;
-            sink.finish().map_err(cannot)?;
-            course
-        }
-    };
-    out.flush().map_err(cannot)?;
-    drop(out);
-    if course.refused {
-        return Ok(Exit::Refused);
-    }
-    if !args.telling.quiet {
-        let _ = say(args, shop, &plan, &course, &source.shown, err);
-    }
-    Ok(Exit::Done)
-}
-
-/// The account of a program that does not tell it itself.
-pub(crate) fn say(
-    args: &Time,
-    shop: &Shop,
-    plan: &Plan,
-    course: &Course,
-    shown: &str,
-    err: &mut dyn Write,
-) -> io::Result<()> {
-    let on = if shop.title().is_empty() { "no machine" } else { shop.title() };
-    let end = duration::hms(course.end);
-    match Stage::from(args.stage) {
-        Stage::After => writeln!(err, "{shown}: over at {end} on {on}, model {}", args.setting.model.name())?,
-        Stage::Before => writeln!(err, "{shown}: before processing, without times")?,
-    }
-    for (i, line) in assumptions(shop, plan, course).iter().enumerate() {
-        writeln!(err, "  {:<13}{line}", if i == 0 { "assumed" } else { "" })?;
-    }
-    Ok(())
-}
-
-/// The program as canonical functions, with times.
-fn canonical(
-    args: &Time,
-    shop: &Shop,
-    first: &Plan,
-    source: &mut Source,
-    out: &mut dyn Write,
-    err: &mut dyn WriteColor,
-) -> Result<Result<Course, Failure>, Problem> {
-    let known = DialectRegistry::built_in();
-    let shown = source.shown.clone();
-    let cannot = |e: io::Error| Problem::file("time", &shown, &e);
-    let to = Settings::new(known.dialect("canon")?);
-    // Rotary axes that nobody has placed are not named in the text either.
-    let mut start = first.job.start;
-    for axis in Axis::ALL.into_iter().filter(|axis| !axis.is_rotary()) {
-        start[axis as usize].get_or_insert(0);
-    }
-    let job = Job { to: to.clone(), start, questions: Policy::Skip, ..first.job.clone() };
-    let mut outcome = translate(&job, &mut source.file).map_err(cannot)?;
-    if !args.telling.quiet {
-        questions::note(first.job, source, &outcome.diagnostics, outcome.release.is_ok(), err)?;
-    }
-    if let Err(failure) = outcome.release {
-        let mut about = About { job: &job, name: &shown, source: &mut source.file };
-        let _ = human::print(err, &mut about, &outcome.diagnostics, Loudness::Usual);
-        let _ = account::print(err, &mut about, &outcome);
-        return Ok(Err(failure));
-    }
-    let mut file = ncc_driver::source::spool::Spool::default();
-    outcome.output.write_to(&mut file).map_err(cannot)?;
-    file.seek(SeekFrom::Start(0)).map_err(cannot)?;
-    // A reader of its own: the other one is somewhere else in the text.
-    let mut again = ncc_driver::source::spool::Spool::default();
-    outcome.output.write_to(&mut again).map_err(cannot)?;
-    again.seek(SeekFrom::Start(0)).map_err(cannot)?;
-    let mut text = Source::of(file, &source.name);
-    let second = Job { from: to.clone(), to, start, called: None, ..first.job.clone() };
-    // Each function of the text has its own line.
-    let plan =
-        Plan { job: &second, machine: shop.machine.clone(), centre: false, ..plan(args, shop, &second) };
-    let mut sink = canon::Canon::new(BufReader::new(again), out);
-    let mut course = execute(args, &plan, &known, &mut text, &mut sink, err)?;
-    sink.finish().map_err(cannot)?;
-    // What was assumed of the source; the canonical text states what it means.
-    course.diagnostics = outcome.diagnostics;
-    Ok(Ok(course))
 }

@@ -297,3 +297,69 @@ fn a_parameter_that_the_machine_states_is_used_for_programs_in_the_text_form() {
     call("none.toml").exits(1).says("NC0226").says("`[options]` of a machine profile");
     call("own.toml").exits(0);
 }
+
+/// Table 10 as a file: the same times as of the profile that is shipped, of any dialect.
+#[test]
+fn the_machine_file_of_the_case_study() {
+    let folder = folder();
+    let folder = folder.path();
+    let table_10 = r#"{ "name": "romi", "tool_change_time": 7, "max_feed": 15000, "start_spindle_time": 2 }"#;
+    write(folder, "machine.json", table_10.as_bytes());
+    let rows = |machine: &str| {
+        time(folder, &["good.cn", "--from", "mach9", "-m", machine, "--as", "csv", "-q"]).exits(0).out
+    };
+    assert_eq!(rows("machine.json"), rows("romi-discovery-4022"));
+    let printed = time(folder, &["good.cn", "-m", "machine.json", "--as", "payload-printed", "-q"]).exits(0);
+    assert!(printed.out.contains("\"machine_name\": \"romi\""), "{}", printed.out);
+    write(
+        folder,
+        "fanuc.nc",
+        b"%\nO0001 (PART)\nG21 G17 G90 G94\nT1 M6\nS500 M3\nG0 X1.\nG43 H1 Z50.\nM30\n%\n",
+    );
+    let done = time(folder, &["fanuc.nc", "-m", "machine.json"]).exits(0).says("read as fanuc");
+    assert!(!done.out.contains("whose control"), "{}", done.out);
+    write(folder, "wrong.json", b"{ \"name\": \"romi\",\n  \"tool_change\": 7 }\n");
+    let done = time(folder, &["good.cn", "-m", "wrong.json"]).exits(2);
+    done.says("wrong.json:2:")
+        .says("unknown field `tool_change`, expected one of `name`, `tool_change_time`");
+    write(folder, "wrong.json", b"{ \"name\": \"romi\", \"max_feed\": 0 }\n");
+    time(folder, &["good.cn", "-m", "wrong.json"]).exits(2).says("NC0708").says("max_feed");
+}
+
+/// A stored payload gives the rows again, or says where it is wrong.
+#[test]
+fn a_payload_is_read_back() {
+    let folder = folder();
+    let folder = folder.path();
+    let with =
+        |arguments: &[&str]| time(folder, &[&MACHINE[..], &["good.cn", "-q"], arguments].concat()).exits(0);
+    let rows = with(&["--as", "csv"]).out;
+    with(&["--as", "payload", "-o", "good.json"]);
+    let stored =
+        |arguments: &[&str]| time(folder, &[&["--from", "payload", "good.json"], arguments].concat());
+    assert_eq!(stored(&["--as", "csv"]).exits(0).out, rows);
+    assert!(stored(&["--as", "canon"]).exits(0).out.contains("CHANGE_TOOL(1)\nCOMMENT(\"time 7.000000"));
+    stored(&["--as", "csv", "-o", "good.json"]).exits(2).says("never written over");
+    stored(&[]).exits(2).says("--as csv and --as canon");
+    stored(&["--as", "csv", "-m", "romi-discovery-4022"]).exits(2).says("has its times already");
+    with(&["--as", "payload", "--stage", "before", "-o", "before.json"]);
+    for form in ["csv", "canon"] {
+        time(folder, &["--from", "payload", "before.json", "--as", form]).exits(1).says("is not processed");
+    }
+    let good = std::fs::read_to_string(folder.join("good.json")).unwrap();
+    for (from, to, says) in [
+        ("\"x0\":", "\"x9\":", "line 6, column 54: unknown field `x9`"),
+        ("\"STRAIGHT_TRAVERSE\"", "\"MOVE\"", "unknown variant `MOVE`, expected one of `SELECT_TOOL`"),
+        ("\"time\":7.0", "\"time\":-7.0", "expected >= 0"),
+        ("\"cut_offset\":0,", "", "missing field `cut_offset`"),
+        ("  ]\n}", "", "EOF while parsing a list"),
+        ("\"parameters\":{}", "\"parameters\":[{},{}]", "invalid length 2"),
+        ("\"dialect\": \"mach9\",", "", "missing field `dialect`"),
+    ] {
+        let wrong = good.replacen(from, to, 1);
+        assert_ne!(wrong, good, "{from}");
+        write(folder, "wrong.json", wrong.as_bytes());
+        let done = time(folder, &["--from", "payload", "wrong.json", "--as", "csv"]).exits(1);
+        done.says("wrong.json is not a payload: line ").says(says);
+    }
+}

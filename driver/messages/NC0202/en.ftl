@@ -25,6 +25,9 @@ NC0202-Code-VariableInCycle = `{ $code }` reads a variable while a canned cycle 
     .help = add `{ $cancel_cycle }` before this block
 NC0202-Code-OtherUse = `{ $code }`: ncc does not know this value
     .label = other values of this word are known
+NC0202-Code-Skipped = `{ $code }` in a block that can be skipped
+    .label = what follows depends on the skip switch
+    .help = delete the block skip, or the block
 NC0202-Code-Index = `{ $code }`: a word with an index
     .label = no axis, spindle or tool by an index here
 NC0202-Code-SpindleByNumber = `{ $code }` names a spindle by its number
@@ -729,6 +732,12 @@ NC0202-Table-TableInCycle = `{ $code }`: a table value while a canned cycle is a
 NC0202-Table-TableInInches = `{ $code }`: a table value in inches
     .label = tables count in the basic unit of the machine
     .help = write it where `{ $mm }` is active
+NC0202-Table-OriginAfterMove = `{ $code }`: an origin by values after a move
+    .label = earlier moves count from an unknown origin
+    .help = write it before the first move
+NC0202-Table-OriginByBoth = `{ $code }`: origins by number and by values in one program
+    .label = values become work offset 1
+    .help = use one of the two forms
 
 ## Calls, returns and what they give
 NC0202-Call-Arguments = `{ $code }`: a call with arguments

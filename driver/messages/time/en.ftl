@@ -13,6 +13,7 @@ time-as-programmed-why = from line { $line } on, contours are timed as programme
 time-radius = compensated contours are timed as programmed: no radius is stated for { $entries }
 time-edge-radius = compensated contours are timed as programmed: no radius is stated for a tool edge
 time-outer-corners = outer corners of compensated contours are arcs
+time-rapid-rate = { $code } has no effect: rapid moves at the rate of the machine
 time-offset-zero = { $offset } is machine zero
 time-offsets-zero = all work offsets are machine zero
 time-offsets-equal = all work offsets are equal

@@ -2,6 +2,7 @@
 
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_ir::unsupported::left_out::LeftOut;
 use ncc_machines::Profile;
 use ncc_time::{AssumedFact, Fact, Model, WHOLE_PATH};
 
@@ -22,6 +23,14 @@ pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
     for line in assumed.filter_map(|d| assumption(&d.fault, dialects)) {
         if !lines.contains(&line) {
             lines.push(line);
+        }
+    }
+    for diagnostic in diagnostics {
+        if let Fault::CodeLeftOut { what: LeftOut::RapidRate { code } } = &diagnostic.fault {
+            let line = Message::part(Part::Time, "rapid-rate").text("code", &**code).headline();
+            if !lines.contains(&line) {
+                lines.push(line);
+            }
         }
     }
     lines

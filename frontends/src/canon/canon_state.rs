@@ -4,6 +4,7 @@ use ncc_ir::canon::{AXES, Axis, FeedMode, Plane, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Point};
+use ncc_ir::unsupported::TableUnsupported;
 
 /// The selected tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,10 +15,23 @@ pub(super) enum Selected {
     Unsure,
 }
 
+/// By which form of `SET_ORIGIN_OFFSETS` the text has said the origin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    None,
+    /// A work offset by its number.
+    Number,
+    /// Machine coordinates.
+    Values,
+}
+
 /// What the text has stated so far.
 #[derive(Debug)]
 pub(super) struct CanonState {
     pub(super) units: Option<Units>,
+    /// Whether lengths are written in centimetres; `units` is then the millimetre.
+    pub(super) centimetres: bool,
+    pub(super) origin: Origin,
     pub(super) plane: Option<Plane>,
     pub(super) feed_mode: Option<FeedMode>,
     pub(super) selected: Selected,
@@ -38,6 +52,26 @@ impl CanonState {
 
     pub(super) fn select(&mut self, tool: i64, skipped: bool) {
         self.selected = if skipped { Selected::Unsure } else { Selected::Tool(tool) };
+    }
+
+    /// Takes note of the origin of a statement. Values go into the first work offset, so a number may mean another one
+    /// after them than before; and a move before them would start from what the last run left in the table.
+    pub(super) fn set_origin(&mut self, op: &Op, moved: bool) -> Result<(), Fault> {
+        let (form, refused) = match (op, self.origin) {
+            (Op::SetOriginOffsets(_), Origin::Values) | (Op::SetData(_), Origin::Number) => {
+                (self.origin, Some(TableUnsupported::OriginByBoth))
+            }
+            (Op::SetData(_), Origin::None) if moved => (self.origin, Some(TableUnsupported::OriginAfterMove)),
+            (Op::SetOriginOffsets(_), _) => (Origin::Number, None),
+            (Op::SetData(_), _) => (Origin::Values, None),
+            _ => (self.origin, None),
+        };
+        self.origin = form;
+        let fault = |what: TableUnsupported| Fault::NotSupported {
+            code: "SET_ORIGIN_OFFSETS".into(),
+            what: what.into(),
+        };
+        refused.map_or(Ok(()), |what| Err(fault(what)))
     }
 
     pub(super) fn check_tool(&self, tool: i64) -> Result<(), Fault> {

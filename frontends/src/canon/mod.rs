@@ -3,12 +3,15 @@
 //!
 //! ```text
 //! COMMENT("text")  MESSAGE("text")
-//! USE_LENGTH_UNITS(CANON_UNITS_MM | CANON_UNITS_INCHES)       millimetres at the start
+//! USE_LENGTH_UNITS(CANON_UNITS_MM | CANON_UNITS_INCHES | CANON_UNITS_CM)     millimetres at the start
 //! SELECT_PLANE(CANON_PLANE_XY | CANON_PLANE_XZ | CANON_PLANE_YZ)     XY at the start
 //! SET_FEED_MODE(CANON_PER_MINUTE | CANON_PER_REVOLUTION | CANON_INVERSE_TIME)
 //! SET_ORIGIN_OFFSETS(n)  CLEAR_ORIGIN_SHIFT()      ours: number of the work offset; no shift
+//! SET_ORIGIN_OFFSETS(x, y, z [, a, b, c])          NIST's: the origin in machine coordinates
 //! SET_FEED_RATE(f)  SET_SPINDLE_SPEED(s)  SELECT_TOOL(n)  CHANGE_TOOL(n)  DWELL(seconds)
 //! USE_TOOL_LENGTH_OFFSET(n)                        ours: entry of the length table, 0 for none
+//! USE_TOOL_LENGTH_OFFSET(length)                   NIST's: a number with a decimal point is a length
+//! SET_TRAVERSE_RATE(rate)                          left out: rapid moves are made at the machine's rate
 //! START_CUTTER_RADIUS_COMPENSATION(CANON_SIDE_LEFT | CANON_SIDE_RIGHT, entry)     entry of the table
 //! STOP_CUTTER_RADIUS_COMPENSATION()
 //! START_SPINDLE_CLOCKWISE()  START_SPINDLE_COUNTERCLOCKWISE()  STOP_SPINDLE_TURNING()
@@ -29,6 +32,11 @@
 //! tool selected, or nothing if that may have been skipped. `/` before a call, or `/2 ` with its
 //! level, marks it for block skip. Blank lines are kept.
 //!
+//! NIST's forms (`canon.hh` of its RS274/NGC interpreter, Kramer, Proctor & Messina 2000): `SET_ORIGIN_OFFSETS` puts
+//! the origin at a point in machine coordinates, in the active unit of length; `USE_TOOL_LENGTH_OFFSET` names the length
+//! itself. The origin becomes work offset 1: a program names it before its first move, and no work offset by number.
+//! Lengths and feeds in centimetres become millimetres.
+//!
 //! Lines are read one by one, straight moves by a recogniser of their own. After a fault the next
 //! line is read. Not here: whether the stream makes sense.
 
@@ -47,9 +55,10 @@ use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Move, Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::syntax::{Expected, Found, Ranged};
+use ncc_ir::unsupported::left_out::LeftOut;
 
 use self::call::Placed;
-use self::canon_state::{CanonState, Selected};
+use self::canon_state::{CanonState, Origin, Selected};
 use self::lexer::{LexFault, Token};
 use crate::batch::Batch;
 
@@ -87,6 +96,8 @@ impl Reader {
             assume,
             state: CanonState {
                 units: Some(Units::Mm),
+                centimetres: false,
+                origin: Origin::None,
                 plane: Some(Plane::Xy),
                 feed_mode: Some(FeedMode::PerMinute),
                 selected: Selected::None,
@@ -106,14 +117,15 @@ impl Reader {
         let mut rest = text;
         let mut at = base;
         while !rest.is_empty() {
-            let length = if self.moved && !self.ended && self.fast_lower(rest, at, out) {
-                self.end.wrapping_sub(at) as usize
-            } else {
-                let newline = rest.iter().position(|&b| b == b'\n');
-                let line = &rest[..newline.unwrap_or(rest.len())];
-                self.line(line.strip_suffix(b"\r").unwrap_or(line), at, out);
-                newline.map_or(rest.len(), |n| n + 1)
-            };
+            let length =
+                if self.moved && !self.ended && !self.state.centimetres && self.fast_lower(rest, at, out) {
+                    self.end.wrapping_sub(at) as usize
+                } else {
+                    let newline = rest.iter().position(|&b| b == b'\n');
+                    let line = &rest[..newline.unwrap_or(rest.len())];
+                    self.line(line.strip_suffix(b"\r").unwrap_or(line), at, out);
+                    newline.map_or(rest.len(), |n| n + 1)
+                };
             at = at.wrapping_add(length as u32);
             rest = &rest[length..];
         }
@@ -158,20 +170,40 @@ impl Reader {
         match result {
             Ok((skip, op)) => {
                 let span = place(start, length);
-                let silent = matches!(op, Op::Blank | Op::Comment(_));
-                self.account(&op, skip.is_some(), span, silent, out);
-                self.state.after(&op, skip.is_some());
-                // A surface speed is stated with the function that makes it one.
-                let before = out.stmts.last().filter(|_| matches!(op, Op::SetSpindleSpeed(_)));
-                let surface = Op::SetSpindleMode(SpindleMode::Surface);
-                let joined = before.is_some_and(|stmt| stmt.op == surface && stmt.skip == skip);
-                out.stmts.push(Stmt { skip, joined, ..Stmt::new(span, op) });
+                if let Err(fault) = self.state.set_origin(&op, self.moved && self.assume) {
+                    self.found = true;
+                    out.diagnostics.push(Diagnostic::new(fault, span));
+                    return;
+                }
+                if let (Op::NoEffect(code), true) = (&op, self.assume) {
+                    let what = LeftOut::RapidRate { code: code[..].into() };
+                    out.diagnostics.push(Diagnostic::new(Fault::CodeLeftOut { what }, span));
+                }
+                let values = matches!(op, Op::SetData(_));
+                self.push(op, skip, span, out);
+                if values {
+                    self.push(Op::SetOriginOffsets(lower::ORIGIN), skip, span, out);
+                }
             }
             Err((fault, l, r)) => {
                 self.found = true;
                 out.diagnostics.push(Diagnostic::new(fault, place(l, r)));
             }
         }
+    }
+
+    fn push(&mut self, op: Op, skip: Option<u8>, span: Span, out: &mut Batch) {
+        let silent = matches!(op, Op::Blank | Op::Comment(_));
+        self.account(&op, skip.is_some(), span, silent, out);
+        self.state.after(&op, skip.is_some());
+        let before = out.stmts.last().filter(|before| before.skip == skip);
+        let joined = before.is_some_and(|before| match op {
+            // A surface speed is said with the function that makes it one.
+            Op::SetSpindleSpeed(_) => before.op == Op::SetSpindleMode(SpindleMode::Surface),
+            Op::SetOriginOffsets(_) => before.span == span,
+            _ => false,
+        });
+        out.stmts.push(Stmt { skip, joined, ..Stmt::new(span, op) });
     }
 
     fn call(&mut self, text: &str) -> Result<(Option<u8>, Op), (Fault, usize, usize)> {
@@ -276,7 +308,7 @@ fn said(mut so_far: Modes, op: &Op) -> Modes {
     if let Op::SetOriginOffsets(number) = op {
         so_far.work_offset = Some(*number);
     }
-    if let Op::UseToolLengthOffset(_) = op {
+    if let Op::UseToolLengthOffset(_) | Op::UseToolLength(_) = op {
         so_far.length_offset = Some(0);
     }
     if let Op::ClearFrame(_) = op {

@@ -160,7 +160,12 @@ fn frames(dialect: &Dialect) -> FrameCaps {
             dialect.code.iter().filter_map(last).max().unwrap_or(0)
         },
         work_offsets_off: everything || dialect.family == Family::Canon || says(Meaning::SetOriginOffsets(0)),
-        offset_data: if everything { [true; 3] } else { dialect.sets_offsets() },
+        offset_data: match (everything, dialect.can.flat) {
+            (true, _) => [true; 3],
+            // Its origin by values.
+            (_, true) => [true, false, false],
+            (false, false) => dialect.sets_offsets(),
+        },
         offset_turns: everything || dialect.data.iter().any(|row| row.turns.is_some()),
         chain: everything || names(NameMeaning::SetFrame(FrameWord::Translate)),
         local_shift: everything || says(Meaning::SetShift(false)),
@@ -258,7 +263,8 @@ fn tools(dialect: &Dialect) -> ToolCaps {
             .code
             .iter()
             .any(|row| row.own_tool && row.means == Some(Meaning::UseToolLengthOffset)),
-        stated_lengths: [false, true].map(|added| everything || says(Meaning::UseToolLength { added })),
+        stated_lengths: [false, true]
+            .map(|added| everything || dialect.can.flat && !added || says(Meaning::UseToolLength { added })),
         offset_with_z: dialect.can.offset_with_z,
         length_at_once: dialect.can.length_at_once,
         starts_without_length: dialect.safe_start.contains(&SafeStart::NoLengthOffset),

@@ -21,6 +21,8 @@ reasons! {
         VariableInCycle,
         /// Ncc does not know this value.
         OtherUse,
+        /// This code in a block that a switch skips.
+        Skipped,
         /// A word with an index.
         Index,
         /// This code names a spindle by its number.

@@ -9,6 +9,8 @@ reasons! {
     pub enum LeftOut {
         /// A code without an effect on the cut.
         Code { code: Box<str>, },
+        /// A rate of rapid moves, which is the machine's.
+        RapidRate { code: Box<str>, },
         /// A code that the control reads as another.
         ReadAs { code: Box<str>, other: Box<str>, },
         /// A code of machine coordinates without an axis word.

@@ -60,5 +60,9 @@ reasons! {
         TableInCycle,
         /// A table value in inches.
         TableInInches,
+        /// An origin by values after a move.
+        OriginAfterMove,
+        /// Origins by number and by values in one program.
+        OriginByBoth,
     }
 }

@@ -263,6 +263,9 @@ fn each_fault_once_at_its_place() {
     one("ARC_FEED(1.0, 2.0, 3.0, 4.0, 1.5, 0.0)", 209, "1.5");
     one("CHANGE_TOOL(4)", 203, "4");
     one("SELECT_TOOL(1.0)", 209, "1.0");
+    one("SET_ORIGIN_OFFSETS(1.0, 2.0)", 205, ")");
+    one("SET_ORIGIN_OFFSETS(1.0, 2.0, 3.0, 4.0)", 205, ")");
+    one("SET_ORIGIN_OFFSETS(1.0)", 209, "1.0");
     one("SELECT_PLANE(CANON_PLANE_UV)", 109, "CANON_PLANE_UV");
     one("USE_LENGTH_UNITS()", 205, ")");
     one("COMMENT(\"open)", 103, "\"open)");
@@ -283,6 +286,68 @@ fn faults_of_the_whole_text() {
     assert_eq!(faults("PROGRAM_END()\n\nCOMMENT(\"x\")\nFLOOD_ON()\nMIST_ON()\n"), [111]);
     assert_eq!(faults("CHANGE_TOOL(1)\nPROGRAM_END()\n"), [221]);
     assert_eq!(faults("/PROGRAM_END()\nFLOOD_ON()\nPROGRAM_END()\n"), Vec::<u16>::new());
+}
+
+/// NIST's own forms (`canon.hh`): an origin in machine coordinates is work offset 1 with these values; a length is known
+/// by its decimal point; a rate of rapid moves is left out.
+#[test]
+fn forms_of_nist() {
+    let text = "USE_LENGTH_UNITS(CANON_UNITS_CM)\nSET_ORIGIN_OFFSETS(-30.0, 5, 1.25, 90.0, 0.0, 0.0)\n\
+                USE_TOOL_LENGTH_OFFSET(8.25)\nSET_TRAVERSE_RATE(1500)\nSTRAIGHT_TRAVERSE(1.5, 2, 0.12)\n\
+                SET_ORIGIN_OFFSETS(1.0, 2.0, 3.0)\nPROGRAM_END()\n";
+    let batch = read(text.as_bytes(), true);
+    let found: Vec<_> = batch.diagnostics.iter().map(|d| d.fault.code()).collect();
+    assert_eq!(found, [444, 301]);
+    let values = |words: [Option<Num>; AXES]| {
+        let words = Box::new(words.map(|word| word.map(Expr::Num)));
+        Op::SetData(Box::new(Data::Offset { offset: 1, mode: DataMode::Set, words, turn: None }))
+    };
+    let degrees = |n| Some(Num { unit: Unit::Degree, ..mm(n, 0) });
+    let whole = |n| Num { point: false, ..mm(n, 0) };
+    let first = [Some(mm(-300, 0)), Some(whole(50)), Some(mm(125, 1)), degrees(90), degrees(0), degrees(0)];
+    let second = [Some(mm(10, 0)), Some(mm(20, 0)), Some(mm(30, 0)), None, None, None];
+    let mut place = to(&[(Axis::X, mm(15, 0)), (Axis::Z, mm(12, 1))]);
+    place.set(Axis::Y, absolute(whole(20)));
+    let ops: Vec<_> = batch.stmts.iter().map(|s| (s.op.clone(), s.joined)).collect();
+    assert_eq!(
+        ops,
+        [
+            (Op::UseLengthUnits(Units::Mm), false),
+            (values(first), false),
+            (Op::SetOriginOffsets(1), true),
+            (Op::UseToolLength(Box::new(ToolLength::Value(mm(825, 1).into()))), false),
+            (Op::NoEffect("SET_TRAVERSE_RATE(1500)".into()), false),
+            (Op::StraightTraverse(Move { to: place, said: false }), false),
+            (values(second), false),
+            (Op::SetOriginOffsets(1), true),
+            (Op::ProgramEnd, false),
+        ]
+    );
+    assert_eq!(batch.assumed.work_offset, None);
+}
+
+#[test]
+fn forms_of_nist_that_would_cut_elsewhere_are_refused() {
+    let refused = |text: &str| -> Vec<String> {
+        let all = read(text.as_bytes(), true).diagnostics;
+        all.into_iter()
+            .filter_map(|d| match d.fault {
+                Fault::NotSupported { what, .. } => Some(format!("{what:?}")),
+                _ => None,
+            })
+            .collect()
+    };
+    let origin = "SET_ORIGIN_OFFSETS(1.0, 2.0, 3.0)\n";
+    let by_number = "SET_ORIGIN_OFFSETS(2)\n";
+    let to_origin = "STRAIGHT_TRAVERSE(0.0, 0.0, 0.0)\n";
+    assert_eq!(refused(&format!("{to_origin}{origin}")), ["Table(OriginAfterMove)"]);
+    assert_eq!(refused(&format!("{by_number}{origin}")), ["Table(OriginByBoth)"]);
+    assert_eq!(refused(&format!("{origin}{to_origin}{by_number}")), ["Table(OriginByBoth)"]);
+    assert_eq!(refused(&format!("/{origin}")), ["Code(Skipped)"]);
+    assert_eq!(refused("/USE_LENGTH_UNITS(CANON_UNITS_CM)\n"), ["Code(Skipped)"]);
+    let back = "USE_LENGTH_UNITS(CANON_UNITS_CM)\n/USE_LENGTH_UNITS(CANON_UNITS_MM)\n";
+    assert_eq!(refused(back), ["Code(Skipped)"]);
+    assert_eq!(refused(&format!("{origin}{to_origin}{origin}")), [""; 0]);
 }
 
 /// Digits and unit that the text keeps.
@@ -323,6 +388,7 @@ fn statement() -> impl Strategy<Value = Stmt> {
         1 => number(Unit::Second).prop_map(|n| Op::Dwell(n.into())),
         1 => (0i64..99).prop_map(|n| Op::SelectTool(Expr::int(n))),
         1 => (0i64..99).prop_map(|n| Op::UseToolLengthOffset(Expr::int(n))),
+        1 => number(Unit::Mm).prop_map(|n| Op::UseToolLength(Box::new(ToolLength::Value(n.into())))),
         1 => (1u16..9).prop_map(Op::SetOriginOffsets),
         1 => (any::<bool>(), 0i64..99).prop_map(|(left, entry)| Op::StartCutterRadiusCompensation {
             side: if left { Side::Left } else { Side::Right },

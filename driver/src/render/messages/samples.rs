@@ -252,6 +252,7 @@ fn became() -> Vec<Fault> {
         BlockSplit,
         MessageDropped,
         CodeLeftOut { what: LeftOut::Code { code: t() } },
+        CodeLeftOut { what: LeftOut::RapidRate { code: t() } },
         CodeLeftOut { what: LeftOut::ReadAs { code: t(), other: t() } },
         CodeLeftOut { what: LeftOut::WithoutAxis { code: t() } },
         CodeLeftOut { what: LeftOut::WithoutLetter { code: t(), letter: 'D' } },

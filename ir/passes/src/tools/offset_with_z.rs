@@ -15,7 +15,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::lack::LengthsLack;
 use ncc_ir::program::kinds::flow;
-use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::program::{Op, Program, Stmt, ToolLength};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -147,6 +147,17 @@ pub(crate) fn delay_offset(
                     in_force,
                 });
                 made.leave_out(stmt);
+            }
+            // A length by value takes the place of the one that waits.
+            Op::UseToolLength(length) if state.waiting.is_some() => {
+                walk.step(&stmt);
+                if let Some(before) = state.waiting.take()
+                    && !(matches!(**length, ToolLength::Value(_))
+                        && stmt.skip.is_none_or(|_| stmt.skip == before.skip))
+                {
+                    cannot(diags, before.span);
+                }
+                made.push(stmt);
             }
             _ if state.waiting.is_some() && commands || state.ends_on_the_way(&stmt) => {
                 walk.step(&stmt);

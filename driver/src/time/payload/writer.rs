@@ -1,8 +1,4 @@
-//! The case study's JSON document: every function as a block, in two stages.
-//!
-//! Before processing, cycles and patterns are blocks with their parameters, and nothing has a time;
-//! after it they are the moves that they stand for, and every block has its time. Written block by
-//! block: the whole is never in memory. `schema/payload.schema.json` describes it.
+//! Writes the document block by block: the whole is never in memory.
 
 use std::io::{self, Write};
 
@@ -11,96 +7,30 @@ use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::expr::num::Nanos;
 use ncc_ir::program::Stmt;
 use ncc_time::{Machine, Timed};
-use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::columns::{Columns, Row, micro, units};
-use super::drive::{Said, Sink, Stage};
-use super::parameters;
+use super::super::columns::{Columns, Row, micro, units};
+use super::super::drive::{Said, Sink, Stage};
+use super::super::parameters;
+use super::printed::Printed;
+use super::{Block, Fields, Header, Look, Rotary, Shape};
 use crate::render::events;
 
-/// The JSON Schema of the document and of the lines of its long form.
-pub const SCHEMA: &str = include_str!("../../schema/payload.schema.json");
-
-/// What stands at the top.
-#[derive(Clone, Debug, Serialize)]
-pub struct Header<'h> {
-    /// The program's name.
-    pub prog_name: &'h str,
-    /// The machine's name, as its profile has it.
-    pub machine_name: &'h str,
-    /// The name of the program's dialect.
-    pub dialect: &'h str,
-}
-
-/// A block. Positions are the program's, mm; rotary axes, degrees, where the program moves any.
-#[derive(Clone, Debug, Serialize)]
-struct Block<'b> {
-    gcode: &'b str,
-    function_name: &'b str,
-    x0: f64,
-    y0: f64,
-    z0: f64,
-    x1: f64,
-    y1: f64,
-    z1: f64,
-    #[serde(flatten)]
-    rotary: Option<Rotary>,
-    cut_offset: Option<u32>,
-    feed: f64,
-    speed: f64,
-    tool: i64,
-    dx: f64,
-    dy: f64,
-    dz: f64,
-    distance: f64,
-    time: f64,
-    timestamp: f64,
-    parameters: Map<String, Value>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct Rotary {
-    a0: f64,
-    b0: f64,
-    c0: f64,
-    a1: f64,
-    b1: f64,
-    c1: f64,
-}
-
-/// How blocks stand in the output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// One document with all of them.
-    Document,
-    /// One block a line, and nothing around them.
-    Lines,
-}
-
 /// Writes the document.
-pub struct Payload<'m, W: Write> {
+pub struct Writer<'m, W: Write> {
     machine: &'m Machine,
     columns: Columns,
-    shape: Shape,
-    /// Times are reported after processing.
-    stage: Stage,
+    look: Look,
     any: bool,
     /// Feed active.
     feed: f64,
     out: W,
 }
 
-impl<'m, W: Write> Payload<'m, W> {
+impl<'m, W: Write> Writer<'m, W> {
     /// Writes what stands before the blocks.
-    pub fn new(
-        header: &Header,
-        machine: &'m Machine,
-        shape: Shape,
-        stage: Stage,
-        mut out: W,
-    ) -> io::Result<Payload<'m, W>> {
-        if shape == Shape::Lines {
+    pub fn new(header: &Header, machine: &'m Machine, look: Look, mut out: W) -> io::Result<Writer<'m, W>> {
+        if look.shape == Shape::Lines {
             serde_json::to_writer(&mut out, header)?;
             out.write_all(b"\n")?;
         } else {
@@ -116,24 +46,29 @@ impl<'m, W: Write> Payload<'m, W> {
             }
             out.write_all(b"  \"blocks\": [")?;
         }
-        Ok(Payload { machine, columns: Columns::default(), shape, stage, any: false, feed: 0.0, out })
+        Ok(Writer { machine, columns: Columns::default(), look, any: false, feed: 0.0, out })
     }
 
     /// Writes what stands after the blocks.
     pub fn finish(&mut self) -> io::Result<()> {
-        if self.shape == Shape::Document {
+        if self.look.shape == Shape::Document {
             self.out.write_all(b"\n  ]\n}\n")?;
         }
         self.out.flush()
     }
 
     fn block(&mut self, block: &Block) -> io::Result<()> {
-        if self.shape == Shape::Document {
+        if self.look.shape == Shape::Document {
             self.out.write_all(if self.any { b",\n    " } else { b"\n    " })?;
         }
         self.any = true;
-        serde_json::to_writer(&mut self.out, block)?;
-        if self.shape == Shape::Lines {
+        match self.look.fields {
+            Fields::Full => serde_json::to_writer(&mut self.out, block)?,
+            Fields::Printed(dialect) => {
+                serde_json::to_writer(&mut self.out, &Printed::of(block, self.look.stage, dialect))?;
+            }
+        }
+        if self.look.shape == Shape::Lines {
             self.out.write_all(b"\n")?;
         }
         Ok(())
@@ -146,8 +81,8 @@ fn block<'b>(gcode: &'b str, row: &Row, from: &[Nanos; AXES], to: &[Nanos; AXES]
     let turns = Axis::ALL.into_iter().any(|a| a.is_rotary() && (f[a as usize], t[a as usize]) != (0.0, 0.0));
     let rotary = Rotary { a0: f[3], b0: f[4], c0: f[5], a1: t[3], b1: t[4], c1: t[5] };
     Block {
-        gcode,
-        function_name: row.name,
+        gcode: gcode.into(),
+        function_name: row.name.into(),
         x0: f[0],
         y0: f[1],
         z0: f[2],
@@ -169,7 +104,7 @@ fn block<'b>(gcode: &'b str, row: &Row, from: &[Nanos; AXES], to: &[Nanos; AXES]
     }
 }
 
-impl<W: Write> Sink for Payload<'_, W> {
+impl<W: Write> Sink for Writer<'_, W> {
     fn wants_blocks(&self) -> bool {
         true
     }
@@ -182,7 +117,7 @@ impl<W: Write> Sink for Payload<'_, W> {
         }
         let mut block = block(&said.block, &row, &act.program_from, &act.program_to);
         block.cut_offset = act.cut_offset;
-        if self.stage == Stage::After {
+        if self.look.stage == Stage::After {
             block.time = micro(timed.duration);
             block.timestamp = micro(timed.end());
         }
