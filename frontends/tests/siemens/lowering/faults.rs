@@ -77,7 +77,7 @@ fn words_that_are_known_and_not_translated() {
     refused(
         "EXTCALL R1",
         "EXTCALL",
-        "Code(Named { name: 'call of a program from another memory by what is no text' })",
+        "Code(Named { name: 'call of a program from another memory, not by a text' })",
         "EXTCALL R1",
     );
     refused("PCALL /_N_X/NAME", "PCALL", "Code(Named { name: 'call by path' })", "PCALL /_N_X/NAME");
