@@ -1,8 +1,7 @@
-//! Requests of an editor that change a text, or lead through it: layout, new block numbers, names and their places, another
-//! name.
+//! Editor requests: lay out a program, list its names, find a called program, rename.
 //!
-//! Lines count from 1; columns count the units of UTF-16 from 0, as pages do. Not here: what is done in the text
-//! (`ncc_driver::fmt`, `ncc_driver::names`).
+//! Lines count from 1. Columns count UTF-16 units from 0.
+//! Not here: the work on the text (`ncc_driver::fmt`, `ncc_driver::names`).
 
 use std::io::{self, Read, Seek};
 
@@ -26,7 +25,7 @@ fn all(side: &mut Side, name: &str) -> Result<Vec<u8>, Problem> {
     Ok(text)
 }
 
-/// Lays a program out.
+/// Lays out a program and renumbers its blocks if the request asks for it. Gives the text as `output`.
 pub(crate) fn layout(
     asked: &Layout,
     files: &Files,
@@ -47,8 +46,10 @@ pub(crate) fn layout(
     Ok((Exit::Done, vec![("output", text)]))
 }
 
-/// The names of a program, whether other files may use them, and for each of their places five numbers: which name, line, first column, the column behind
-/// it, and whether the name gets its meaning there.
+/// Lists the names of a program as JSON `document`: sort, text, and whether other files may use it.
+///
+/// `places` holds five numbers for each use: index of the name, line, first column, end column (exclusive), and 1 if
+/// the use defines the name.
 pub(crate) fn names(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let mut side = side_alone(one, files, messages)?;
     let text = all(&mut side, &one.file)?;
@@ -69,7 +70,7 @@ pub(crate) fn names(one: &One, files: &Files, messages: &mut Buffer) -> Result<(
     Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }
 
-/// Where a program that another one calls begins.
+/// Finds the start of the program called at a position. Gives its file and line; no output if none is found.
 pub(crate) fn called(
     asked: &Called,
     files: &Files,
@@ -86,7 +87,7 @@ pub(crate) fn called(
         .flat_map(|name| name.places.iter().map(move |place| (*name, place)))
         .filter(|(_, place)| place.line as usize == asked.line && !place.defines)
         .collect();
-    // A sign in front belongs to the name for whoever points at it.
+    // A position on the character before a name also selects the name.
     let is_there =
         |(_, place): &&(_, &names::Place)| place.range.start <= byte + 1 && byte <= place.range.end;
     let here = calls.iter().find(is_there).or(calls.first().filter(|_| calls.len() == 1));
@@ -94,7 +95,7 @@ pub(crate) fn called(
     let Some(place) = place else { return Ok((Exit::Done, Vec::new())) };
     let start = place.range.start;
     let behind = side.source.called.as_ref().map_or(&[][..], |called| &called.files);
-    // One that a file's name alone names has its heading in front of the file's text.
+    // A program named only by its file has a heading line before the text of the file.
     let heads = |file: &&CalledFile| {
         let (from, to) = (file.places.0 as usize, file.places.1 as usize);
         start < to && (start >= from || text[start..from].iter().filter(|byte| **byte == b'\n').count() == 1)
@@ -108,7 +109,7 @@ pub(crate) fn called(
     Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }
 
-/// Gives a name another, at all its places.
+/// Renames the name at a position in the whole program. Gives the text as `output`.
 pub(crate) fn renamed(
     asked: &Rename,
     files: &Files,
@@ -122,7 +123,7 @@ pub(crate) fn renamed(
     Ok((Exit::Done, vec![("output", written)]))
 }
 
-/// Where the lines of a text begin.
+/// Byte offsets of the line starts of a text.
 struct Lines(Vec<usize>);
 
 impl Lines {
@@ -131,7 +132,7 @@ impl Lines {
         Lines(std::iter::once(0).chain(ends).collect())
     }
 
-    /// The bytes of a line, and where they begin.
+    /// Byte offset of a line, and its bytes. `line` counts from 1.
     fn line<'t>(&self, text: &'t [u8], line: usize) -> (usize, &'t [u8]) {
         let start = self.0.get(line.saturating_sub(1)).copied().unwrap_or(text.len());
         let end = self.0.get(line).copied().unwrap_or(text.len());

@@ -1,5 +1,7 @@
-//! What a table of a profile has: its keys, what each takes, what it means. The types of the schema
-//! are made with `table!`, so that the written schema and the list of facts follow from them.
+//! Tables of a machine profile: their keys, the allowed values and their meaning.
+//!
+//! The macro `table!` makes the types of the schema, so the written schema and the list of facts always agree.
+//! Not here: the tables themselves (`schema`).
 
 use std::ops::Range;
 
@@ -9,63 +11,63 @@ use crate::takes::Takes;
 /// A key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// Its name.
+    /// Name in the file.
     pub name: &'static str,
-    /// The values that it takes.
+    /// Allowed values.
     pub takes: Takes,
-    /// The thing that it states.
+    /// Meaning, in words for the user.
     pub about: &'static str,
 }
 
-/// A fact of a profile, for people.
+/// A fact of a profile, as text for reports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stated {
-    /// The key.
+    /// Name of the key in its table.
     pub key: &'static str,
-    /// The value; `None` is not stated.
+    /// Value as text; `None` if not stated.
     pub value: Option<String>,
     /// The manual and its page, or another source.
     pub source: String,
-    /// Whether it is marked as assumed.
+    /// Whether the profile marks it as assumed.
     pub assumed: bool,
-    /// Its place in the file, in bytes.
+    /// Byte range in the file.
     pub span: Range<usize>,
 }
 
-/// A table of a profile with what is stated in it.
+/// A table of a profile with its facts.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// How it is headed in the file.
+    /// Heading in the file: `[times]`.
     pub head: &'static str,
     /// What it holds.
     pub about: &'static str,
-    /// Its keys and values.
+    /// Its facts, in the order of the keys.
     pub facts: Vec<Stated>,
 }
 
 /// A table with a fixed set of keys.
 pub trait Table {
-    /// How it is headed in the file: `[times]`, or `[[axis]]` if there may be several.
+    /// Heading in the file: `[times]`, or `[[axis]]` if several are allowed.
     const HEAD: &'static str;
     /// What it holds.
     const ABOUT: &'static str;
-    /// Its keys.
+    /// All keys, in the order of the schema.
     const KEYS: &'static [Key];
-    /// Every key with what is stated for it.
+    /// One fact for each key; keys without a value have `None`.
     fn stated(&self) -> Vec<Stated>;
 }
 
-/// A value that a table shows.
+/// A field of a table that can become a [`Stated`].
 pub trait Tell {
-    /// What is stated under a key.
+    /// The fact under a key.
     fn tell(&self, key: &'static str) -> Stated;
-    /// Its place in the file.
+    /// Byte range in the file.
     fn place(&self) -> Range<usize>;
 }
 
-/// A value in words.
+/// A value as text: `true` is `yes`, a range is `0 to 500`.
 pub trait Words {
-    /// The value as a profile has it, without quotes.
+    /// Text without quotes. List items are joined with ` | `.
     fn words(&self) -> String;
 }
 
@@ -116,7 +118,7 @@ impl Words for [f64; 2] {
     }
 }
 
-/// `PerMinute` as `per-minute`.
+/// Kebab case: `PerMinute` becomes `per-minute`.
 pub(crate) fn kebab(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars() {

@@ -1,13 +1,15 @@
-//! What is known of the machine, and what could not be checked because it is not.
+//! Machine data for the rules, and the checks that missing data made impossible.
+//!
+//! Not here: the rules (`rules`), and reading the data from a profile.
 
 use ncc_exec::world::Tables;
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::expr::num::Nanos;
 
-/// Facts of a machine that rules hold a program against, each as far as it is stated.
+/// Machine data that the rules compare a program with. `None` is not stated.
 #[derive(Clone, Debug, Default)]
 pub struct Limits {
-    /// Whether a machine is named at all.
+    /// Whether the user named a machine.
     pub machine: bool,
     /// Least and greatest machine coordinate of each axis, nanos.
     pub travel: [Option<[Nanos; 2]>; AXES],
@@ -17,43 +19,43 @@ pub struct Limits {
     pub axis_feed: [Option<Nanos>; AXES],
     /// Highest speed of the spindle, nanos of rev/min.
     pub max_speed: Option<Nanos>,
-    /// Plane below which no rapid may go: Z in program coordinates, nanos.
+    /// Lowest Z allowed for a rapid move: program coordinates, nanos.
     pub rapid_plane: Option<Nanos>,
-    /// Work offsets and lengths.
+    /// Work offsets and tool lengths.
     pub tables: Tables,
-    /// Whether the operator sets the zero of Z by each tool, so that no length is activated.
+    /// Whether the operator sets Z zero with each tool, so that programs activate no tool length offset.
     pub no_lengths: bool,
 }
 
-/// What was not checked, and why.
+/// A check that was not possible, and its reason.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Unchecked {
-    /// Travel, feeds and speeds: no machine is named.
+    /// Travel, feeds and speeds: the user named no machine.
     NoMachine,
-    /// Rapids: no plane is named.
+    /// Rapid moves: the user named no plane.
     NoPlane,
-    /// Travel of an axis that moves: the machine's is not stated.
+    /// Travel of an axis that moves: the machine data lack it. Holds the axis index.
     Travel(u8),
-    /// Travel of an axis: the zero of the work offset is not stated along it.
+    /// Travel of an axis: the work offset has no value for it. Holds the offset and the axis index.
     Offset(u16, u8),
-    /// Travel of Z: the length of the entry (or of the tool, whose edge it is) is not stated.
+    /// Travel of Z: the length is not stated. Holds the number of the table entry, or of the tool.
     Length(i64),
-    /// Travel of an axis: blocks before were not read, so that it is not known where zero is.
+    /// Travel of an axis: ncc did not read the blocks before, so the zero point is unknown. Holds the axis index.
     Frame(u8),
-    /// Travel of an axis: it moves from a place that the program does not say.
+    /// Travel of an axis: its start point is unknown. Holds the axis index.
     Start(u8),
-    /// Travel of an axis: points are those of the tool tip, or of a tilted plane.
+    /// Travel of an axis: TCP or a tilted plane is active. Holds the axis index.
     Tilted(u8),
-    /// Feeds: the highest is not stated.
+    /// Feeds: the highest feed is not stated.
     MaxFeed,
-    /// Speeds: the highest is not stated.
+    /// Speeds: the highest speed is not stated.
     MaxSpeed,
-    /// All that needs execution, from a place on: it does not end.
+    /// All rules that need execution: the program does not end.
     Endless,
 }
 
 impl Unchecked {
-    /// The axis of an index that stands in it.
+    /// The axis of an index from a variant of this type; Z if the index is out of range.
     pub fn axis(index: u8) -> Axis {
         Axis::ALL.get(usize::from(index)).copied().unwrap_or(Axis::Z)
     }

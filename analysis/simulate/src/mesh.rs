@@ -1,4 +1,6 @@
-//! Triangles: from a map, and onto one.
+//! Converts triangles to a height map (`rasterise`), and a height map to a closed body of triangles (`mesh`).
+//!
+//! Not here: cutting (`cut`), and reading or writing of mesh files.
 
 use crate::hollows::without;
 use crate::map::HeightMap;
@@ -6,7 +8,7 @@ use crate::map::HeightMap;
 /// Three corners, X Y Z in mm; counterclockwise as seen from outside.
 pub type Triangle = [[f32; 3]; 3];
 
-/// Raises a map to the upper surface of a body: cells of which the centre is under one of its triangles.
+/// Raises the cells of a map to the upper surface of a body. It raises each cell with its centre under a triangle.
 pub fn rasterise(triangles: &[Triangle], map: &mut HeightMap) {
     let grid = map.grid;
     for corners in triangles {
@@ -25,7 +27,7 @@ pub fn rasterise(triangles: &[Triangle], map: &mut HeightMap) {
                     ((q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])) / area
                 };
                 let [of_c, of_a, of_b] = [part(a, b), part(b, c), part(c, a)];
-                // A centre on an edge is of both triangles.
+                // A centre on a shared edge belongs to both triangles.
                 if of_a.min(of_b).min(of_c) >= -1e-9 {
                     let height = (of_a * a[2] + of_b * b[2] + of_c * c[2]) as f32;
                     let own = &mut map.heights[row * grid.cells[0] + column];
@@ -36,11 +38,11 @@ pub fn rasterise(triangles: &[Triangle], map: &mut HeightMap) {
     }
 }
 
-/// The body between a level and a map's heights, closed: corners at the centres of every `step`th cell. Where there is no
-/// material above the level, there is none of the body.
+/// Passes the closed body between `level` (Z, mm) and the heights of a map to `triangle`. Corners lie at the centre of
+/// every `step`th cell. Cells without material above the level give no triangles.
 ///
-/// Walls are as wide as the distance of these corners. A part with hollows is made of upright blocks instead, each as wide as
-/// `step` cells: its walls are steps.
+/// A wall is as wide as the distance between two corners. A map with hollows gives upright blocks instead, each
+/// `step` cells wide: its walls are steps.
 pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(Triangle)) {
     let [width, height] = map.grid.cells;
     let step = step.max(1);
@@ -98,7 +100,7 @@ pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(T
                 }
                 let [a, b] = [down(i0, j0), down(i1, j1)];
                 let [c, d] = [up(i1, j1), up(i0, j0)];
-                // A wall without height is none.
+                // Leave out a wall without height.
                 if c[2] > level {
                     triangle([a, b, c]);
                 }
@@ -110,11 +112,11 @@ pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(T
     }
 }
 
-/// The body as upright blocks: their tops and bottoms, and the walls where the next block has no material.
+/// The body as upright blocks: tops, bottoms, and walls where the next block has no material.
 fn blocks(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(Triangle)) {
     let [width, height] = map.grid.cells;
     let [columns, rows] = [width.div_ceil(step), height.div_ceil(step)];
-    // A block has the material of the cell in its middle.
+    // The middle cell gives the material of a block.
     let middle = |n: usize, cells: usize| (n * step + step / 2).min(cells - 1);
     let of = |i: usize, j: usize| map.material(middle(j, height) * width + middle(i, width), level);
     let place = |axis: usize, n: usize, cells: usize| {

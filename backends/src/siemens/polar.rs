@@ -1,4 +1,6 @@
-//! Poles, and moves to points by radius and angle about them.
+//! Emits poles (`G111 X10 Y0`) and moves in polar coordinates (`G1 AP=30 RP=20`).
+//!
+//! Not here: replacing polar moves that Sinumerik cannot express. A pass does that first.
 
 use ncc_dialects::{Meaning, NameRole, Quantity};
 use ncc_ir::canon::{Axis, Distance, Motion};
@@ -15,7 +17,10 @@ use crate::common::number;
 use crate::common::setting::Inserted;
 
 impl Writer {
-    /// A pole, in a block of its own.
+    /// Emits a pole in a separate block.
+    ///
+    /// # Errors
+    /// The dialect has no such pole, or the plane is unknown.
     pub(super) fn pole(&mut self, set: &SetPole, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let row = self.dialect.code_for(Meaning::SetPole(set.from)).ok_or_else(|| cannot(PolarLack::Pole))?;
         let mut inserted = Inserted::default();
@@ -46,7 +51,10 @@ impl Writer {
         self.alone(&text, sink)
     }
 
-    /// A move to a polar point.
+    /// Emits a move to, or a hole at, a polar point.
+    ///
+    /// # Errors
+    /// The function has no polar form, or the cycle of the hole is unknown.
     pub(super) fn polar(&mut self, polar: &Polar, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.raw = false;
         let hole = matches!(polar.op, Op::Hole(_));
@@ -85,7 +93,7 @@ impl Writer {
             && matches!(arc.centre, Centre::Point { .. })
             && arc.turns.is_none()
         {
-            // About the pole; a pass has seen to it.
+            // The arc is centred on the pole: a pass ensures it.
             (Motion::Arc(arc.turn), codes.arcs[arc.turn as usize], arc.said)
         } else {
             return Err(cannot(PolarLack::FunctionToPoint));
@@ -94,12 +102,16 @@ impl Writer {
         let says = said || self.words.active.motion != Some(motion);
         self.arc_block(says.then_some(code), None, to, inserted, &words, span, sink)?;
         self.words.active.motion = Some(motion);
-        // Where a rounded point is, is not followed.
+        // ncc does not track the rounding of a polar end point.
         self.words.residue[..3].fill(0);
         Ok(())
     }
 
-    /// `AP` or `RP`. Under incremental words, one from zero says so.
+    /// A word of a role: `AP=30` or `RP=20`. An incremental polar angle gets `IC`. An absolute one gets `AC`, unless
+    /// absolute distance mode is active.
+    ///
+    /// # Errors
+    /// The radius or the angle of a line is incremental, or the distance mode is unknown.
     fn polar_word(
         &mut self,
         role: NameRole,

@@ -1,7 +1,11 @@
-//! Tilted working planes: one call says the plane, and whether and which way the tool is swivelled to it.
+//! Emits tilted planes as `CYCLE800`, with the swivel of the tool in the same call.
 //!
-//! What retracts to the machine's zero in its block is stated by the call, where it turns the tool. No record of
-//! the machine's kinematics is named: the only one, or the first, counts. Where the program does not say the way, the one towards minus is written.
+//! ```text
+//! tilted plane B30, swivel to minus    →    CYCLE800(0,"",0,57,0,0,0,0,30,0,0,0,0,-1)
+//! ```
+//!
+//! A retract to machine zero in the same block becomes the first argument if the call swivels the tool. The name of
+//! the swivel data record is empty: the only or first record is active. Without a stated direction ncc writes minus.
 
 use ncc_dialects::{Meaning, NameMeaning, Quantity};
 use ncc_ir::canon::Axis;
@@ -16,26 +20,26 @@ use ncc_passes::retract;
 use super::{Sink, Writer};
 use crate::common::fault::cannot;
 
-/// A plane, and how the tool is swivelled to it in the same block.
+/// A tilted plane with the swivel of the tool in the same block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swivel<'s> {
-    /// The end of the plane before it, which a plane set again brings by itself.
+    /// 1 if the statements first end the old plane, else 0. A new plane replaces the old one.
     ends: usize,
-    /// Moves to the machine's zero before it: along Z, and then X and Y.
+    /// Number of retracts to machine zero before the plane: 1 is Z, 2 is Z and then X and Y.
     retracts: usize,
     tilt: &'s Tilt,
-    /// `None` is not at all.
+    /// Swivel direction. The outer `None` is no swivel, the inner one no stated direction.
     turned: Option<Option<Toward>>,
 }
 
 impl Swivel<'_> {
-    /// How many statements it is.
+    /// Number of statements that the call replaces.
     pub(super) fn said(self) -> usize {
         self.ends + self.retracts + 1 + usize::from(self.turned.is_some())
     }
 }
 
-/// The plane that the statements begin with.
+/// The tilted plane at the start of the statements; `None` if they do not fit one call.
 pub(super) fn first_swivel(rest: &[Stmt]) -> Option<Swivel<'_>> {
     let ends = usize::from(matches!(rest.first()?.op, Op::ClearFrame(FrameSlot::Tilt)));
     let retracts = rest.get(ends..).and_then(retract).unwrap_or(0);
@@ -57,7 +61,10 @@ pub(super) fn first_swivel(rest: &[Stmt]) -> Option<Swivel<'_>> {
 }
 
 impl Writer {
-    /// `CYCLE800(0,"",0,57,x,y,z,a,b,c,0,0,0,-1)`
+    /// Emits `CYCLE800(0,"",0,57,x,y,z,a,b,c,0,0,0,-1)`.
+    ///
+    /// # Errors
+    /// The dialect has no tilted plane, or `CYCLE800` has no such order of axes.
     pub(super) fn tilt(&mut self, swivel: Swivel, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let Swivel { retracts, tilt, turned, .. } = swivel;
         if self.words.preamble.is_some() {
@@ -91,7 +98,7 @@ impl Writer {
     }
 }
 
-/// The number of an order of turns: two bits each, the first turn lowest, X 1, Y 2, Z 3.
+/// Swivel mode of three rotations: two bits each, the first one lowest; X is 1, Y 2, Z 3. X, Y, Z gives 57.
 fn mode_of(about: [Axis; 3]) -> Option<u8> {
     let [a, b, c] = about.map(|axis| match axis {
         Axis::X => Some(1),

@@ -1,10 +1,13 @@
-//! Other ways to say `ncc translate --from A --to B FILE`, rewritten before clap sees them.
+//! Rewrites the short forms of `ncc translate --from A --to B FILE` before clap reads the arguments.
 //!
-//! `ncc A to B FILE`, `ncc to B FILE` where a project file names A, `ncc A:B FILE`, and the arrow: `->`, `=>` and `→`, as a word or glued. clap
-//! would take `->` for an option. An arrow that is not quoted never arrives: a POSIX shell reads
-//! `>` as a redirection, so that `mach9 -> fanuc part.cn` becomes `mach9 - part.cn` with stdout
-//! sent to a file named `fanuc`. That is recognised here by what is left of it; whether it can be
-//! honoured is a question about stdout, answered in `arrow`.
+//! ```text
+//! ncc A to B FILE    ncc A:B FILE    ncc A -> B FILE    →    ncc translate --from A --to B FILE
+//! ncc to B FILE                                         →    ncc translate --to B FILE
+//! ```
+//!
+//! Arrows are `->`, `=>` and `→`, with or without blanks. clap would read `->` as an option. A POSIX shell reads the
+//! `>` of an unquoted arrow as a redirection: `mach9 -> fanuc part.cn` becomes `mach9 - part.cn`, with stdout in a
+//! file `fanuc`. This module only recognises such a torn arrow. Not here: joining it, which depends on stdout (`run`).
 
 use std::ffi::OsString;
 
@@ -13,23 +16,23 @@ use clap::{CommandFactory, Subcommand};
 use crate::args::typed::{ARROWS, is_name};
 use crate::args::{Cli, Verb};
 
-/// What the arguments were taken for.
+/// The arguments after the rewrite.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Said {
-    /// Arguments for clap, the program's name first.
+    /// Arguments for clap. The program name is first.
     Plain(Vec<OsString>),
-    /// An arrow that the shell has taken apart.
+    /// An arrow that lost its `>` to the shell.
     Arrow {
         /// The dialect before the arrow.
         from: String,
         /// The arrow as it was typed: `->` or `=>`.
         typed: &'static str,
-        /// All other arguments, without the program's name.
+        /// All other arguments, without the program name.
         rest: Vec<OsString>,
     },
 }
 
-/// Rewrites the arguments, the program's name first. What is no sugar comes back as it was.
+/// Rewrites the arguments; the program name is first. Arguments without a short form come back unchanged.
 pub fn rewrite(arguments: Vec<OsString>) -> Said {
     let arguments = assumed(arguments);
     let Some(at) = first_positional(&arguments) else {
@@ -63,7 +66,7 @@ pub fn rewrite(arguments: Vec<OsString>) -> Said {
         if ARROWS.contains(&second) && !third.is_empty() {
             return translate(first, third, without(3));
         }
-        // `mach9 ->fanuc`, `mach9→ fanuc` are typing mistakes that mean one thing only.
+        // Typing mistakes such as `mach9 ->fanuc` have only one meaning.
         if let Some(to) = ARROWS[1..].iter().find_map(|a| second.strip_prefix(a)).filter(|to| is_name(to)) {
             return translate(first, to, without(2));
         }
@@ -85,7 +88,7 @@ pub fn rewrite(arguments: Vec<OsString>) -> Said {
     Said::Plain(arguments)
 }
 
-/// `--assume milling` as one argument. The option may have no value, so that clap takes one only after `=`.
+/// Joins `--assume milling` into one argument. The value is optional, so clap reads it only after `=`.
 fn assumed(arguments: Vec<OsString>) -> Vec<OsString> {
     let mut all: Vec<OsString> = Vec::with_capacity(arguments.len());
     let mut options = true;
@@ -99,7 +102,7 @@ fn assumed(arguments: Vec<OsString>) -> Vec<OsString> {
     all
 }
 
-/// What a shell leaves of an arrow.
+/// The arrow of which the shell left only `-` or `=`.
 fn torn(rest: &str) -> Option<&'static str> {
     match rest {
         "-" => Some("->"),
@@ -108,7 +111,7 @@ fn torn(rest: &str) -> Option<&'static str> {
     }
 }
 
-/// `A:B`, `A->B`, `A=>B`, `A→B`.
+/// Splits `A:B`, `A->B`, `A=>B` or `A→B` into its two names.
 fn glued(word: &str) -> Option<(&str, &str)> {
     ["->", "=>", "→", ":"]
         .iter()
@@ -116,7 +119,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
         .find(|(from, to)| is_name(from) && is_name(to))
 }
 
-/// Place of the first argument that is neither an option nor an option's value.
+/// Index of the first argument that is neither an option nor the value of one. `None` after `--`.
 fn first_positional(arguments: &[OsString]) -> Option<usize> {
     let mut at = 1;
     while let Some(argument) = arguments.get(at) {

@@ -1,4 +1,10 @@
-//! The questions that a translation leaves open.
+//! Collects the open questions of a translation: facts that no profile states and that ncc assumed.
+//!
+//! ```text
+//! no code for through-coolant    line 6
+//! ```
+//!
+//! Not here: printing the questions, and writing answers into a profile.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -16,28 +22,28 @@ use ncc_machines::reading::{Place, Side, UNNAMED};
 use ncc_machines::schema::PowerOn;
 use ncc_machines::table::Table;
 
-/// Of one question, so many lines are named.
+/// Greatest number of line numbers shown for one question.
 const MOST_LINES: usize = 8;
 
-/// A fact that is not stated.
+/// A fact that the profile does not state.
 #[derive(Clone, Debug)]
 pub(super) struct Question {
-    /// Whose.
+    /// The machine that the question is about.
     pub(super) side: Side,
-    /// Its place in a profile.
+    /// Key or row of the profile that answers it.
     pub(super) place: Place,
-    /// What is assumed.
+    /// The assumption of ncc, in words.
     pub(super) taken: String,
-    /// What the place takes.
+    /// The possible answers, in words.
     pub(super) takes: String,
-    /// Lines that depend on it, in order.
+    /// Numbers of the lines that depend on it, in order; at most [`MOST_LINES`].
     lines: Vec<u64>,
-    /// How many more there are.
+    /// Number of further diagnostics about it.
     more: usize,
 }
 
 impl Question {
-    /// `line 6`, `lines 9, 18 and 28`.
+    /// `line 6`, `lines 9, 18, 28 and 3 more`, or `the whole program`.
     pub(super) fn lines(&self) -> String {
         let list: Vec<String> = self.lines.iter().map(u64::to_string).collect();
         let more = match self.more {
@@ -52,10 +58,10 @@ impl Question {
     }
 }
 
-/// The questions, machine by machine, in the order of the first line that depends on each.
+/// The questions, by machine, then by the first line that depends on each.
 ///
 /// # Errors
-/// Reading the source.
+/// ncc cannot read the source.
 pub(super) fn questions(about: &mut About, outcome: &Outcome) -> io::Result<Vec<Question>> {
     let lines = about.lines(outcome.rests.iter().map(|rest| &outcome.diagnostics[rest.diagnostic]))?;
     let (from, to) = (about.job.from.dialect, about.job.to.dialect);
@@ -90,7 +96,7 @@ pub(super) fn questions(about: &mut About, outcome: &Outcome) -> io::Result<Vec<
     Ok(questions)
 }
 
-/// The name of a function, or of the code that nobody has named.
+/// Name of a function; for a code without a name, a description of it.
 fn function(name: &str) -> String {
     match name.strip_prefix(UNNAMED) {
         Some(number) => format!("what M{number} does on the other machine"),
@@ -98,7 +104,7 @@ fn function(name: &str) -> String {
     }
 }
 
-/// What a place of a profile takes, in words.
+/// Possible values of a place in a profile, in words.
 fn takes(place: &Place, dialect: &Dialect) -> String {
     match place {
         Place::PowerOn(key) => {

@@ -1,12 +1,16 @@
-//! Whether two lines say the same, by their pieces: the judge of `layout`.
+//! Checks a laid-out line: compares its pieces with those of the line before `layout` changed it.
 //!
-//! Values are held against each other digit by digit, not by the layout's rules: a plus may be gone only
-//! between a letter that begins a word and its number, zeros only in front. Block numbers are compared or
-//! left to `number`, which holds its own result against the jumps. Not here: what words mean.
+//! ```text
+//! G01 X+05.0    equal to    g1 x5.0        L010    not equal to    L10
+//! ```
+//!
+//! Numbers are compared digit by digit. `layout` may drop a plus between an address and its number, and leading
+//! zeros. The check does not use the rules of `layout`, so it also finds faults in them.
+//! Not here: the meaning of words. `number` checks new block numbers against the jumps.
 
 use ncc_frontends::pieces::{LineIs, Piece, PieceKind as Kind};
 
-/// A line with its pieces.
+/// A line with its pieces, in the order of the text.
 #[derive(Clone, Copy)]
 pub struct Taken<'l> {
     pub(crate) is: LineIs,
@@ -14,7 +18,7 @@ pub struct Taken<'l> {
     pub(crate) pieces: &'l [Piece],
 }
 
-/// Whether two lines say the same.
+/// Whether two lines differ at most in layout. Lines that hold no blocks are compared byte for byte.
 pub fn same(a: Taken, b: Taken) -> bool {
     if a.is != b.is {
         return false;
@@ -32,14 +36,14 @@ pub fn same(a: Taken, b: Taken) -> bool {
     }
 }
 
-/// What a piece says.
+/// A piece in the form in which it is compared.
 #[derive(Debug, PartialEq)]
 enum Says<'l> {
-    /// Compared without case.
+    /// Compared without case. The number is the depth of the piece.
     Word(Kind, u32, Capitals<'l>),
     /// Compared byte for byte.
     Text(Kind, &'l [u8]),
-    /// Digits without zeros in front; the point and what follows it.
+    /// Digits without leading zeros, then the point with the digits after it.
     Number(&'l [u8], Option<&'l [u8]>),
 }
 
@@ -79,7 +83,7 @@ impl<'l> Said<'l> {
         });
         self.at += 1;
         Some(match piece.kind {
-            // A name: `L010` is not `L10`.
+            // The digits are a name: `L010` is not `L10`.
             Kind::Number if named && !text.contains(&b'.') => Says::Text(piece.kind, text),
             Kind::Number if text.iter().all(|b| b.is_ascii_digit() || *b == b'.') => {
                 let point = text.iter().position(|b| *b == b'.');

@@ -1,6 +1,7 @@
-//! Kinds of words of straight moves: what steps may ask of them, so that what they do to one they do to all of its kind.
+//! Kinds of words in straight moves: the properties that passes may test.
 //!
-//! Not here: which moves stand for which (the stretches).
+//! A pass that changes one move must change all moves of its kind alike. `G1 X1.5` and `G1 X2.5` are of one kind;
+//! `G1 Y2.5` is another one. Not here: the moves that represent a long run of moves (`stretches`).
 
 use ncc_ir::canon::{Axis, Distance};
 use ncc_ir::expr::Expr;
@@ -9,15 +10,15 @@ use ncc_ir::program::packing::packs;
 use ncc_ir::program::shapes::{WordRole, WordShape, each_number};
 use ncc_ir::program::{Op, Stmt};
 
-/// Most kinds of computed words of a stretch: each word is held against all of them.
+/// Limit for kinds of computed words in a run of moves: each word is compared with all of them.
 const MOST_COMPUTED: usize = 256;
 
-/// Which words are packed.
+/// The words that may be packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Words {
-    /// Literals.
+    /// Literal numbers only.
     Literal,
-    /// Those that are computed as well.
+    /// Literal numbers and expressions.
     All,
 }
 
@@ -27,18 +28,18 @@ impl Words {
     }
 }
 
-/// Kinds that some moves have.
+/// The kinds found in a run of moves.
 #[derive(Debug, Default)]
 pub(super) struct Kinds {
     bits: u32,
     shapes: Vec<WordShape>,
-    /// Of words that are computed: their shapes' places, and the kinds of their numbers, each with the most digits that
-    /// one of them has behind the point.
+    /// Kinds of computed words: index in `shapes`, kinds of the numbers (8 bits each), and the most decimals of any
+    /// number.
     computed: Vec<(usize, u64, u8)>,
 }
 
 impl Kinds {
-    /// Whether a move has a kind that the ones before it do not have; adds its kinds.
+    /// Adds the kinds of a move. True if one of them is new.
     pub(super) fn has_more(&mut self, stmt: &Stmt) -> bool {
         let own = bits(stmt);
         let mut more = own & !self.bits != 0;
@@ -55,7 +56,7 @@ impl Kinds {
         more
     }
 
-    /// Whether there are so many kinds of computed words that moves like these are not worth packing.
+    /// Whether the limit [`MOST_COMPUTED`] is reached, so that packing no longer pays.
     pub(super) fn is_full(&self) -> bool {
         self.computed.len() >= MOST_COMPUTED
     }
@@ -80,7 +81,7 @@ impl Kinds {
     }
 }
 
-/// Whether a number is below zero, zero, one, and has a point, in eight bits.
+/// Kind of a number, in eight bits: bit 0 has a point, 1 is negative, 2 is zero, 3 is 1 or -1.
 fn kind_of(num: Num) -> u64 {
     let bit = |has: bool, bit: u64| if has { bit } else { 0 };
     let one = 10_u64.checked_pow(u32::from(num.scale));
@@ -90,7 +91,7 @@ fn kind_of(num: Num) -> u64 {
         | bit(Some(num.mantissa.unsigned_abs()) == one, 1 << 3)
 }
 
-/// Whether a word of a move is computed.
+/// Whether an axis word or the feed is an expression.
 pub(super) fn computes(stmt: &Stmt) -> bool {
     match &stmt.op {
         Op::StraightFeed(to) | Op::StraightTraverse(to) => {
@@ -101,8 +102,8 @@ pub(super) fn computes(stmt: &Stmt) -> bool {
     }
 }
 
-/// What a statement has, a bit each: what the steps may ask of it. Of words that are computed, their distance is asked
-/// alone.
+/// Properties of a statement that passes may test, one bit each: axes, distance modes and units. Expressions add
+/// their axis and distance mode only.
 pub(super) fn bits(stmt: &Stmt) -> u32 {
     let (words, feed) = match &stmt.op {
         Op::StraightFeed(to) => (&to.to, true),

@@ -1,13 +1,13 @@
-//! Durations and numbers as people read them.
+//! Formats durations and numbers for reports: 131.525 s is `0:02:11.525`.
 
-/// Seconds as `h:mm:ss.mmm`; hours are not limited.
+/// Seconds as `h:mm:ss.mmm`, rounded to milliseconds. Hours have no limit; negative times give 0.
 pub fn hms(seconds: f64) -> String {
     let millis = (seconds.max(0.0) * 1000.0).round() as u64;
     let (whole, part) = (millis / 1000, millis % 1000);
     format!("{}:{:02}:{:02}.{part:03}", whole / 3600, whole / 60 % 60, whole % 60)
 }
 
-/// A number with at most so many digits after the point, without needless zeros.
+/// A number rounded to at most `digits` decimals, without trailing zeros: 0.5 is `0.5`.
 pub fn short(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

@@ -1,7 +1,11 @@
-//! Lowering of the functions that stand for themselves: modes, feed, speed and tool words, spindle
-//! and coolant, dwell, length offsets, stops.
+//! Lowers the functions of a block that are neither moves, cycles nor calls, in the order of execution.
 //!
-//! Moves, cycles and calls have files of their own.
+//! ```text
+//! S1200 M3 G4 P500    →    SET_SPINDLE_SPEED, START_SPINDLE_CLOCKWISE, DWELL
+//! ```
+//!
+//! It covers modes, feed, speed and tool words, spindle, coolant, dwell, length offsets and stops.
+//! Not here: moves, cycles and calls, each in its file.
 
 use ncc_dialects::{CHANGE_IN_BLOCK, DWELL_UNIT, FIRST_TOOL, Meaning, Quantity};
 use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
@@ -38,7 +42,8 @@ fn takes_axes(meaning: Meaning) -> bool {
 }
 
 impl Lower {
-    /// The block's functions, in the order in which they happen.
+    /// Lowers the functions of a block in the order of execution: settings, feed, speed and tool, codes before the
+    /// move, the move, codes after it. `level` is the skip level of the block.
     pub(super) fn functions(
         &mut self,
         block: &Block,
@@ -67,13 +72,13 @@ impl Lower {
         self.nothing_before_the_tap(codes, block.span, words, out);
         self.units_before_speed(settings, words, out);
         if self.settings.dialect.block.feed_before_units {
-            // The feed's own mode comes first, then the feed, in the units of the blocks before.
+            // The feed mode comes first, then the feed, still in the units of the blocks before.
             for code in settings.iter().filter(|c| matches!(c.meaning, Meaning::SetFeedMode(_))) {
                 self.setting(code, out);
             }
             self.feed_word(motion, words, src, out);
         }
-        // A plane belongs to the active cycle: that ends first, so that either can stand in a block of its own.
+        // The active cycle needs its plane: end the cycle first, so that each can have a separate block.
         let plane = |c: &Code| matches!(c.meaning, Meaning::SelectPlane(_));
         if matches!(self.state.cycle, CycleState::Active(_))
             && settings.iter().any(plane)
@@ -118,7 +123,7 @@ impl Lower {
                 meaning if is_frame(meaning) => {
                     self.frame(code, functions, words, src, out);
                     if self.now.failed {
-                        // They are the frame's, and no move.
+                        // These words belong to the frame. They are no move.
                         let own = b"XYZABC".iter().copied().chain(code.row.words.bytes());
                         own.for_each(|letter| _ = words.take(letter));
                     }
@@ -127,7 +132,7 @@ impl Lower {
             }
         }
         self.feed_word(motion, words, src, out);
-        // Its words may be letters of others.
+        // Its words may have the addresses of other functions.
         let oriented = before.iter().find(|code| code.meaning == Meaning::OrientSpindle);
         self.now.angle = oriented.and_then(|code| self.orient_words(code, words, src, out));
         self.speed_and_tool(words, src, out);
@@ -139,7 +144,7 @@ impl Lower {
         }
         self.now.skip = if block.tail.is_some() { None } else { level };
         self.corrector(words, src, out);
-        // The length is active by now whose radius may be meant.
+        // The length offset is active now. Its entry may also give the radius.
         self.compensation(codes, words, src, out);
         let others = codes.iter().any(|code| takes_axes(code.meaning));
         let moves = motion.iter().any(|code| {
@@ -153,14 +158,14 @@ impl Lower {
         }
     }
 
-    /// The skip level of a code's statement, where the mark stands amid the words.
+    /// Sets the skip level of a code where the skip mark is in the middle of the block: only codes after it skip.
     fn skip_in_tail(&mut self, block: &Block, code: &Code, level: Option<u8>) {
         if let Some(tail) = block.tail {
             self.now.skip = if code.at >= tail { level } else { None };
         }
     }
 
-    /// Sets a mode; also for a block that is refused.
+    /// Records a mode in the state, even if ncc refuses the block.
     pub(super) fn set_mode(&mut self, meaning: Meaning, out: &mut Batch) {
         match meaning {
             Meaning::UseLengthUnits(units) => {
@@ -170,7 +175,7 @@ impl Lower {
             Meaning::SelectPlane(plane) => self.state.modes.plane = Know::Said(plane),
             Meaning::SetDistanceMode(distance) => self.state.modes.distance = Know::Said(distance),
             Meaning::SetFeedMode(mode) => {
-                // A feed that was stated before does not count any more.
+                // A new feed mode cancels the feed of the old one.
                 if self.state.modes.feed_mode.value().is_some_and(|before| before != mode) {
                     self.state.modes.feed = Know::Unsaid;
                 }
@@ -232,7 +237,7 @@ impl Lower {
         }
         if let (Meaning::SelectPlane(plane), CycleState::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
-            // Of a text that was emitted, the plane at the start is what was assumed.
+            // In emitted text, the plane at the start is the assumed one.
             && (self.assume || active.plane.known().is_some())
         {
             let what = MoveUnsupported::PlaneInCycle.into();
@@ -261,9 +266,8 @@ impl Lower {
         self.push(code.span, op, out);
     }
 
-    /// A way of taking corners whose first word says how far from the path; without it, as the control
-    /// does. A second word says how far from their common line moves may lie that are made one; it is the
-    /// same where it is left out.
+    /// Path blending with a tolerance (`G64 P Q`). The first word is the distance from the path; without it the
+    /// control decides. The second is the distance within which moves merge into one line; by default the first.
     fn path_within(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         let mut letters = code.row.words.bytes();
         let (first, second) = (letters.next().unwrap_or(0), letters.next().unwrap_or(0));
@@ -296,7 +300,7 @@ impl Lower {
         self.push(code.span, Op::SetMotionControlMode(Box::new(control)), out);
     }
 
-    /// Advice that a word of the block switches on or off.
+    /// Lowers a code that advises the control. A word of the block switches it on or off.
     fn advise(&mut self, code: &Code, kind: AdviceKind, words: &mut Words, src: Source, out: &mut Batch) {
         let code_text: Box<str> = code.row.code.as_str().into();
         let letter = code.row.words.bytes().next().unwrap_or(b' ');
@@ -315,7 +319,7 @@ impl Lower {
         let value = match self.read_whole(&word, src, out) {
             None => return,
             Some(0) => 0,
-            // However many blocks it is limited to.
+            // The number of blocks to read ahead does not matter.
             Some(_) if kind == AdviceKind::ReadAhead => 1,
             Some(value) if kind.has_amount() && (value as usize) < kind.values().len() => value as u8,
             Some(value) if code.row.on.unwrap_or(1) == value => 1,
@@ -334,7 +338,7 @@ impl Lower {
         self.push(code.span, Op::Advise(Box::new(Advice { kind, value, amount })), out);
     }
 
-    /// Speed and tool words.
+    /// Lowers the speed word, then the tool word.
     pub(super) fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(word) = words.take(self.roles.speed)
             && let Some(value) = self.amount(&word, Quantity::Speed, words, src, out)
@@ -350,7 +354,7 @@ impl Lower {
         }
     }
 
-    /// Between the code for rigid tapping and its cycle no axis moves and no speed is stated: a control alarms.
+    /// Refuses a move or a speed word between the code for rigid tapping and its cycle: a control alarms.
     fn nothing_before_the_tap(&mut self, codes: &[Code], block: Span, words: &Words, out: &mut Batch) {
         let waits = self.state.rigid.is_some() && self.state.cycle == CycleState::None;
         let settled =
@@ -362,7 +366,7 @@ impl Lower {
         }
     }
 
-    /// A number of a table's entry, or of a tool: whole, not negative.
+    /// Number of a table entry or of a tool: whole and not negative, or an expression.
     pub(super) fn entry(&mut self, word: &Word, words: &Words, src: Source, out: &mut Batch) -> Option<Expr> {
         if let Value::Computed(_) = word.value {
             return self.amount(word, Quantity::Integer, words, src, out);
@@ -371,7 +375,7 @@ impl Lower {
         Some(Expr::int(i64::from(whole)))
     }
 
-    /// A tool change where the program has selected no tool: the one that the user states to wait.
+    /// Before a tool change without a tool preselect, selects the tool of the option `FIRST_TOOL`, or reports it.
     fn tool_waits(&mut self, at: Span, out: &mut Batch) {
         if self.state.modes.tool != Know::Unsaid {
             return;
@@ -387,7 +391,7 @@ impl Lower {
         }
     }
 
-    /// A code that stands for itself, before or after the motion.
+    /// Lowers a code that is executed before or after the move.
     fn function(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(other) = code.row.read_as.as_deref()
             && self.assume
@@ -402,7 +406,7 @@ impl Lower {
                 self.tool_changed();
                 Op::ChangeTool
             }
-            // Without a move there is nothing to stop.
+            // Exact stop needs a move.
             Meaning::ExactStop if !self.has_axis_word(words) => return,
             Meaning::ExactStop => Op::ExactStop,
             Meaning::OrientSpindle => Op::OrientSpindle(self.now.angle.take().map(Expr::Num)),
@@ -411,7 +415,7 @@ impl Lower {
             Meaning::StopSpindleTurning => Op::StopSpindleTurning,
             Meaning::MachineFunction(name) => {
                 if !code.row.after_move && b"XYZABC".iter().any(|letter| words.get(*letter).is_some()) {
-                    // Whether it comes before or after the move is a matter of the machine.
+                    // The order of the function and the move depends on the machine.
                     let what = CodeUnsupported::AxisWords.into();
                     let code_text = code.row.code.as_str().into();
                     return self.fault(Fault::NotSupported { code: code_text, what }, code.span, out);
@@ -469,9 +473,9 @@ impl Lower {
             }
             Meaning::BeginAgain => return self.begin_again(code, out),
             Meaning::Return if self.goes_on_within(code, words, src, out) => return,
-            // What is called is looked at by execution: the program is kept whole from here on.
+            // The executor checks called programs: ncc keeps the program whole from here on.
             Meaning::Return if self.level_open() && self.may_go_back() => {
-                // What called this need not know of the length.
+                // The caller may not know the changed length offset.
                 return self.refuse_level(code.span, out);
             }
             Meaning::Call => return self.call(code, words, src, out),
@@ -479,7 +483,7 @@ impl Lower {
             Meaning::Return => {
                 let names = code.row.blocks.bytes().any(|letter| words.get(letter).is_some());
                 if names && !self.may_go_back() {
-                    // It goes on at that block of its own program.
+                    // The main program continues at that block, without end.
                     self.endless(code.span, code.row.code.as_str().into(), out);
                 } else if self.notes_return(code, words, src, out) {
                     self.return_from(code, out);
@@ -491,7 +495,7 @@ impl Lower {
         self.push(code.span, op, out);
     }
 
-    /// A word that applies a length entry by itself.
+    /// A word that activates a length offset without a code: `O` on mach9 (option `o_word`).
     fn corrector(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         let Some(word) = words.take(self.roles.corrector) else {
             return;
@@ -526,7 +530,7 @@ impl Lower {
         }
     }
 
-    /// Applies a length by its entry, with the next Z.
+    /// Activates the length offset of an entry. It takes effect at the next Z move.
     pub(super) fn use_entry(&mut self, entry: Expr, span: Span, words: &Words, out: &mut Batch) {
         self.state.length_open(true);
         let with_z = words.get(b'Z').is_some();

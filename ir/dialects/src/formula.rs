@@ -1,4 +1,10 @@
-//! What a control computes with: its variables, and the words of its operators and functions.
+//! Expressions of a control: its variables, operators and functions, read from `[formula]` of a dialect file.
+//!
+//! ```text
+//! #1=ATAN[#2]/[#3]    fanuc        R1=ATAN2(R2,R3)    siemens
+//! ```
+//!
+//! Not here: parsing (`ncc_frontends`), emitting (`ncc_backends`), and the capabilities that passes read (`caps`).
 
 use std::collections::BTreeMap;
 
@@ -7,95 +13,89 @@ use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::expr::{Binary, Function, Var};
 use serde::Deserialize;
 
-/// Words of the language in which a program computes (`[program] macro_b`), each by its meaning; what is
-/// missing here is refused.
+/// Table `[formula]` of a dialect. ncc refuses each operator and function that is missing here.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FormulaRules {
-    /// Statements that not every language has.
+    /// Optional statements that the control has.
     pub statements: Vec<Statement>,
-    /// Operators.
+    /// Operators, each with its word: `+`, `MOD`, `EQ`.
     pub operators: BTreeMap<Operator, String>,
-    /// Functions.
+    /// Functions written in front of their arguments, each with its word.
     pub functions: BTreeMap<FunctionName, String>,
-    /// Functions of two values whose word stands between them, in brackets with them: `(R1 B_AND 7)`. They bind less
-    /// tightly than sums and more tightly than `and`.
+    /// Functions of two values with the word between them, all in brackets: `(R1 B_AND 7)`. They bind less tightly
+    /// than sums and more tightly than `and`.
     pub between: BTreeMap<FunctionName, String>,
-    /// Of which numbers the remainder's operator is one: of any; of those that are whole by their types; of whole ones,
-    /// which the control makes of others first, in a way that is not known for sure. Of others it is written as what it
-    /// is.
+    /// Numbers for which the operator `modulo` gives the remainder. ncc expands the remainder of other numbers.
     pub remainders: RemainderRule,
-    /// Operators in groups that bind alike, the tightest first.
+    /// Operators in groups of equal priority, the tightest first.
     pub priority: Vec<Vec<Operator>>,
-    /// The brackets.
+    /// Opening bracket: `[` or `(`.
     pub open: String,
-    /// The closing ones.
+    /// Closing bracket.
     pub close: String,
-    /// Whether the arguments of a function of several stand in one pair of brackets, with commas between:
-    /// `ATAN2(a,b)`; else each in its own with a division sign between: `ATAN[a]/[b]`.
+    /// Whether several arguments share one pair of brackets: `ATAN2(a,b)`. Otherwise each has its brackets:
+    /// `ATAN[a]/[b]`.
     pub together: bool,
-    /// What stands before the name of a variable.
+    /// Mark before the name of a variable: `#`.
     pub variable: String,
-    /// What stands around the number of a variable that is computed, and around the indices of an array: `[` and `]` of
-    /// `R[R1+1]`. The control rounds what is not whole there.
+    /// Marks around the computed number of a variable and around array indices: `[` and `]` of `R[R1+1]`. The control
+    /// rounds such a number to a whole one.
     pub index: Option<[String; 2]>,
-    /// What stands for no value at all, of a control that has such a thing.
+    /// The empty variable: `#0`. `None` if the control has none.
     pub vacant: Option<String>,
-    /// With what the names of variables begin that others know by their numbers alone: `R` of `R101`.
+    /// Letter before the number of a numbered variable: `R` of `R101`.
     pub prefix: String,
-    /// What stands between a letter and what is computed; without, it is a variable or in brackets.
+    /// Sign between an address and an expression: `=` of `X=R1+2`. Empty if the control wants brackets: `X[#1+2.]`.
     pub behind: String,
-    /// The word for the opposite of a condition.
+    /// Word that negates a condition: `NOT`.
     pub not: Option<String>,
-    /// What stands after a condition in brackets to make its opposite, of a control whose conditions are numbers.
+    /// Text that negates a condition in brackets where conditions are numbers: `EQ 0` on LinuxCNC.
     pub not_behind: Option<String>,
-    /// The operator of a remainder that is never negative.
+    /// Operator for a remainder that is never negative: `MOD` on LinuxCNC.
     pub remainder: Option<String>,
-    /// The word for whether a variable with a name has a value.
+    /// Function that tests whether a named variable has a value: `EXISTS`.
     pub exists: Option<String>,
-    /// How far apart two numbers are, as a decimal, that comparisons do not find equal; without, the least bit.
+    /// Tolerance of comparisons, as decimal text: `0.000001`. `None` compares exactly.
     pub equal_within: Option<String>,
-    /// To how many digits after the point a number is looked at that must be whole: in words that count, and of a
-    /// variable whose number is computed.
+    /// Decimals to which a computed number must be whole, in words that count and in computed variable numbers.
     pub whole: Option<u8>,
-    /// Between which signs a name stands.
+    /// Opening and closing sign of a name: `<>` of `#<name>`.
     pub name_signs: String,
-    /// Whether newer series read a power as a function of two values, `POW[a,b]`; none is written so.
+    /// Whether newer series read `POW[a,b]` as a power. ncc does not emit it.
     pub power: bool,
-    /// Whether comparisons find real numbers equal that are nearly so.
+    /// Whether comparisons treat nearly equal real numbers as equal.
     pub near: bool,
-    /// Whether a word rounds what is computed for it to its increment.
+    /// Whether a word rounds a computed value to its least increment.
     pub rounds: bool,
-    /// Whether blocks in loops and after labels are written with every fact that is known there, since the words of
-    /// another language lead to them; else as they are, with what is active.
+    /// Whether blocks in loops and after labels repeat all known modes. Otherwise they rely on the active modes.
     pub restates: bool,
-    /// Whether a branch is about blocks of its own, and can have others where it does not hold; else about one jump
-    /// or one assignment.
+    /// Whether a branch can hold blocks, with an ELSE part. Otherwise it holds one jump or one assignment.
     pub blocks: bool,
-    /// Numbers of variables, from and to, that live as long as a call.
+    /// Ranges of local variable numbers, first and last.
     pub local: Vec<[u32; 2]>,
-    /// Of those that all programs see, until the control is switched off.
+    /// Ranges of common variable numbers that the control clears at switch-off.
     pub common: Vec<[u32; 2]>,
-    /// Of those that are kept when it is.
+    /// Ranges of common variable numbers that the control keeps at switch-off.
     pub retentive: Vec<[u32; 2]>,
-    /// How deep loops can stand in one another, and branches with them whose blocks are their own.
+    /// Greatest nesting depth of loops, and of branches that hold blocks.
     pub loops: u8,
-    /// How deep calls with variables of their own can; 0 is not known.
+    /// Greatest nesting depth of calls with local variables; 0 if unknown.
     pub calls: u8,
-    /// How deep brackets can.
+    /// Greatest nesting depth of brackets.
     pub brackets: u8,
-    /// Numbers of alarms that a program can give, from and to.
+    /// Alarm numbers that a program can raise, first and last.
     pub alarms: Option<[u32; 2]>,
-    /// How many characters the text of an alarm, or of a stop with a message, can have.
+    /// Greatest length of the text of an alarm or of a stop with a message, in characters.
     pub alarm_text: usize,
-    /// How many digits a value that is written to a device can have, before the point and after it.
+    /// Greatest number of digits in a value written to a device, before and after the point.
     pub output_digits: u8,
-    /// Whether a device must be opened before anything is written to it.
+    /// Whether the program must open a device before it writes to it.
     pub output_opened: bool,
-    /// Whether the words that join conditions work bit by bit where they stand between numbers.
+    /// Whether AND, OR and XOR work bit by bit between numbers.
     pub bits: bool,
-    /// Whether a call that is made several times begins each of them with the same arguments and no other
-    /// variables; else a program with variables of its own is called once.
+    /// Whether each repetition of a call starts with the same arguments and empty local variables. Otherwise ncc
+    /// calls a program with local variables only once.
     pub arguments_again: bool,
     /// How arguments are passed to the variables of the called program.
     pub parameters: Handing,
@@ -109,76 +109,76 @@ pub struct FormulaRules {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Handing {
-    /// Each letter is a variable of its own, by its number (custom macros).
+    /// Each address sets a variable by number: `A` sets #1 (custom macros).
     #[default]
     Letters,
-    /// One after the other: the first one is variable 1.
+    /// By position: the first argument sets variable 1.
     Places,
-    /// By the names in the head of what is called.
+    /// By the parameter names in the head of the called program.
     Names,
 }
 
-/// Variables with names. Local variables have them; common variables only with `common`.
+/// Rules for names of variables. Local variables have names; common variables only if `common` is set.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct VariableNames {
-    /// With what the names of those begin that all programs see.
+    /// First character of the name of a common variable: `_` on LinuxCNC.
     pub common: Option<String>,
-    /// Whether they are written in capitals.
+    /// Whether ncc writes names in capitals. Otherwise it writes small letters.
     pub capitals: bool,
-    /// How many letters or underlines they begin with.
+    /// Number of letters or underscores at the start of a name.
     pub letters: usize,
-    /// Characters that they have besides letters, digits and the underline.
+    /// Characters allowed besides letters, digits and the underscore.
     pub also: String,
-    /// Most characters.
+    /// Greatest length, in characters.
     pub longest: usize,
-    /// Words beyond those of the dictionary that no variable can be called.
+    /// Reserved words that are not in the dictionary.
     pub reserved: Vec<String>,
     /// The manual and its page, or another source.
     pub source: String,
 }
 
-/// A statement that not every language has.
+/// An optional statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Statement {
     /// A jump to a block.
     Jump,
-    /// A variable is made known with its type.
+    /// A declaration of a variable with its type.
     Declare,
-    /// Several variables under one name.
+    /// An array.
     Array,
     /// A variable whose number is computed.
     Numbered,
     /// A loop without an end.
     Endless,
-    /// A loop that ends where a condition holds after it.
+    /// A loop that tests its condition after each iteration.
     Until,
-    /// A loop over a variable that counts.
+    /// A loop with a counter variable.
     Count,
-    /// A loop as often as a computed number says.
+    /// A loop with a computed repeat count.
     Times,
-    /// The way out of the loops around it.
+    /// A jump out of the surrounding loop.
     Leave,
-    /// The way to the next iteration of a loop.
+    /// A jump to the next iteration of a loop.
     NextTurn,
-    /// A message with what is computed in it.
+    /// A message that shows computed values.
     Values,
-    /// An alarm of the program's own.
+    /// An alarm that the program raises.
     Alarm,
-    /// Text for a device.
+    /// Output of text to a device.
     Output,
     /// A stop with a message.
     Stop,
-    /// A call of which the number, or the repeat count, is computed.
+    /// A call with a computed program number or repeat count.
     CallOf,
-    /// A code of which the number is a variable's, which has it from the active codes.
+    /// A code whose number comes from a variable that holds an active code.
     CodeOf,
-    /// Table entries that are read by a computed number.
+    /// Read access to table entries by a computed number.
     EntriesRead,
-    /// Table entries that are set by a computed number.
+    /// Write access to table entries by a computed number.
     EntriesSet,
-    /// What is said of a subprogram as a whole.
+    /// Attributes of a whole subprogram.
     Attributes,
 }
 
@@ -208,7 +208,7 @@ impl From<Statement> for ComputeFeature {
     }
 }
 
-/// An operator with two operands.
+/// An operator with two operands, as a dialect file names it: `not-equal`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs)] // As [`Binary`].
@@ -230,7 +230,7 @@ pub enum Operator {
     Xor,
 }
 
-/// A function.
+/// A function, as a dialect file names it: `bit-and`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs)] // As [`Function`].
@@ -306,7 +306,7 @@ impl From<FunctionName> for Function {
     }
 }
 
-/// As [`Remainders`].
+/// [`Remainders`], as a dialect file names them: `made-whole`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs)] // As [`Remainders`].
@@ -338,7 +338,8 @@ impl From<Handing> for Handed {
 }
 
 impl FormulaRules {
-    /// Variables with names, which the words of the dictionary cannot be.
+    /// Rules for names of variables, with all reserved words: those of the dictionary (`words`), of operators and
+    /// of functions. `None` if the control has no named variables.
     pub(crate) fn with_names<'d>(&'d self, words: impl Iterator<Item = &'d str>) -> Option<Named> {
         let rules = self.named.as_ref()?;
         let own =
@@ -354,36 +355,36 @@ impl FormulaRules {
         })
     }
 
-    /// How far apart two numbers are that comparisons do not find equal.
+    /// Tolerance of comparisons. `None` compares exactly.
     pub fn tolerance(&self) -> Option<Num> {
         let (whole, rest) = self.equal_within.as_deref()?.split_once('.')?;
         let mantissa = format!("{whole}{rest}").parse().ok()?;
         Some(Num { mantissa, scale: u8::try_from(rest.len()).ok()?, point: true, unit: Unit::One })
     }
 
-    /// The word of an operator.
+    /// Word of an operator; `None` if the control lacks it.
     pub fn operator(&self, operator: Binary) -> Option<&str> {
         self.operators.iter().find(|(own, _)| Binary::from(**own) == operator).map(|(_, word)| word.as_str())
     }
 
-    /// The word of a function.
+    /// Word of a function written in front of its arguments; `None` if the control lacks it.
     pub fn function(&self, function: Function) -> Option<&str> {
         word(&self.functions, function)
     }
 
-    /// The word of a function that stands between its values.
+    /// Word of a function written between its two values; `None` if the control lacks it.
     pub fn between(&self, function: Function) -> Option<&str> {
         word(&self.between, function)
     }
 
-    /// Whether there is a function, by a word of its own or by that of an operator.
+    /// Whether the control has a function, by its word or as a bitwise operator.
     pub fn has(&self, function: Function) -> bool {
         self.function(function).is_some()
             || self.between(function).is_some()
             || self.by_bits(function).is_some()
     }
 
-    /// The operator whose word is that of a function of whole numbers, bit by bit, too.
+    /// Operator that also computes a bitwise function: AND for `BitAnd`. `None` if it works on conditions only.
     pub fn by_bits(&self, function: Function) -> Option<Binary> {
         let operator = match function {
             Function::BitAnd => Binary::And,
@@ -394,7 +395,7 @@ impl FormulaRules {
         (self.bits && self.operator(operator).is_some()).then_some(operator)
     }
 
-    /// The variable of a number, if it is one of a program's own.
+    /// The local or common variable of a number; `None` outside their ranges.
     pub fn variable(&self, number: u32) -> Option<Var> {
         let among = |ranges: &[[u32; 2]]| ranges.iter().any(|[from, to]| (*from..=*to).contains(&number));
         let name = || number.to_string().into();

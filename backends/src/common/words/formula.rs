@@ -1,4 +1,7 @@
-//! Words of a block whose value is an expression.
+//! Emits words whose value is an expression: `X[#1+2.]` on Fanuc, `X=R1+2` on Sinumerik.
+//!
+//! It also reports the assumptions that an expression needs, such as the range of an arc tangent.
+//! Not here: the spelling of operators and functions (`common::formula`).
 
 use ncc_dialects::{ANGLE_RANGE, MACHINE_UNITS, SystemRow};
 use ncc_ir::control_fact::ControlFact;
@@ -17,7 +20,10 @@ use crate::common::formula::{LOOSEST, Spelling, arcs, rounding};
 use crate::common::number::WordValue;
 
 impl Words {
-    /// How expressions are spelt, in a word that rounds to digits or elsewhere.
+    /// The rules for spelling an expression. `digits` is the rounding of its word; `None` if nothing rounds it.
+    ///
+    /// # Errors
+    /// The dialect has no operators.
     pub(crate) fn spelling(&self, digits: Option<u8>) -> Result<Spelling<'_>, Fault> {
         if self.dialect.formula.operators.is_empty() {
             return Err(cannot_compute(RunTimeValue::Computed));
@@ -35,7 +41,7 @@ impl Words {
         })
     }
 
-    /// A condition is a branch's alone, where loops and branches have no words of their own for blocks.
+    /// Refuses a condition used as a value. Macro B allows conditions only in branches and loops.
     fn no_condition(&self, e: &Expr) -> Result<(), Fault> {
         match self.dialect.program.macro_b && e.has(&decides) {
             true => Err(cannot_compute(RunTimeValue::ConditionAsValue)),
@@ -43,7 +49,7 @@ impl Words {
         }
     }
 
-    /// Reports what an expression assumes of the machine.
+    /// Reports the assumptions about the machine that an expression needs: angle range, system variables.
     pub(crate) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
         if arcs(e) {
             self.rely(ANGLE_RANGE, span, sink);
@@ -75,7 +81,7 @@ impl Words {
         }
     }
 
-    /// An expression as what is assigned.
+    /// Text of the right side of an assignment, without outer brackets.
     pub(crate) fn expression(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         self.no_condition(e)?;
         self.rely_on(e, span, sink);
@@ -84,7 +90,7 @@ impl Words {
         Ok(out)
     }
 
-    /// A condition, in its brackets.
+    /// Text of a condition, in brackets.
     pub(crate) fn condition(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         self.rely_on(e, span, sink);
         let mut out = String::new();
@@ -96,7 +102,7 @@ impl Words {
         Ok(out)
     }
 
-    /// Writes the computed value of a letter: a variable with its sign, or an expression in brackets.
+    /// Text after an address: `#1`, `-#1`, `[#1+2.]`, or `=R1+2` where the dialect has a sign before it.
     pub(crate) fn behind(
         &mut self,
         e: &Expr,
@@ -133,10 +139,10 @@ impl Words {
         Ok(out)
     }
 
-    /// The value of a word that is computed.
+    /// The value of a word that an expression gives.
     ///
     /// # Errors
-    /// The control rounds it to other digits than the program says, or cannot compute it.
+    /// The control rounds to other digits than the program, or it cannot compute the expression.
     pub(crate) fn computed(
         &mut self,
         letter: &Letter,
@@ -151,7 +157,7 @@ impl Words {
             (None, None) => None,
             (Some(said), Some([mm, inch])) if mm == inch && said == mm => Some(said),
             (Some(said), Some([mm, inch])) if mm != inch && (said == mm || said == inch) => {
-                // The active units say which of the two is meant.
+                // The digits fit one unit only, so that unit must be active.
                 let unit = if said == mm { Unit::Mm } else { Unit::Inch };
                 self.check_unit(Num::int(1, unit), span)?;
                 Some(said)
@@ -172,10 +178,10 @@ impl Words {
     }
 }
 
-/// A number among conditions that are joined, `[#1 EQ 0] XOR 1`, as one that holds or does not.
+/// Turns a number joined with conditions into a comparison: the 1 of `[#1 EQ 0] XOR 1` becomes `1 EQ 1`.
 ///
 /// # Errors
-/// A side of a comparison is a condition.
+/// One side of a comparison is itself a condition.
 fn compared(e: &mut Expr) -> Result<(), Fault> {
     let Expr::Node(node) = e else { return Ok(()) };
     if let Node::Binary(Binary::And | Binary::Or | Binary::Xor, a, b) = &mut **node {
@@ -197,7 +203,7 @@ fn compared(e: &mut Expr) -> Result<(), Fault> {
     }
 }
 
-/// What must have a value, as that value.
+/// The argument of [`Function::Given`], which marks a value that must not be empty; else `e` itself.
 fn given(e: &Expr) -> &Expr {
     match e {
         Expr::Node(node) => match &**node {

@@ -1,4 +1,6 @@
-//! Helps of NC0501: the help of the reason, and an option that answers it.
+//! Help lines of NC0501: the help of the reason, and an option that solves the problem.
+//!
+//! Not here: the texts (`driver/messages/NC0501`).
 
 use ncc_dialects::{
     BLOCK_SKIP, BLOCK_WITHOUT_WAY, Dialect, FURTHER_POINT, LEFT_OUT, LOOKED_OVER, MACHINE_LENGTH,
@@ -10,15 +12,15 @@ use ncc_ir::lack::{CompensationLack, FlowLack, FramesLack, Lack, MachineLack, Th
 use super::context::Context;
 use super::message::Help;
 
-/// The ways out of what cannot be written: the help of the reason's entry, and `help-option` before it where the
-/// dialects have that option.
+/// Help lines for a capability that the target lacks: `help-option` first, if a dialect has a fitting option, then
+/// the help of the reason.
 pub(super) fn helps(lack: &Lack, at: Context) -> Vec<Help> {
     let option = option(lack, at)
         .map(|(option, value)| Help::new("help-option").text("option", option).text("value", value));
     option.into_iter().chain([Help::new("help")]).collect()
 }
 
-/// The option by which a user states what ncc does not know, and its value.
+/// Option, with its value, that states the fact ncc does not know; `None` if no option helps.
 fn option(lack: &Lack, at: Context) -> Option<(String, &'static str)> {
     match lack {
         Lack::Machine(MachineLack::WithToolLength) => of(at.from, MACHINE_LENGTH, "suppressed"),
@@ -36,13 +38,13 @@ fn option(lack: &Lack, at: Context) -> Option<(String, &'static str)> {
     }
 }
 
-/// An option of a dialect, if it has it.
+/// An option with its value; `None` if the dialect lacks the option.
 fn of(dialect: &Dialect, option: impl Into<String>, value: &'static str) -> Option<(String, &'static str)> {
     let option = option.into();
     dialect.option.iter().any(|row| row.name == option).then_some((option, value))
 }
 
-/// The option of a behaviour that the sources leave open for a dialect.
+/// Option of a behaviour with its value at index `value`; `None` if the manuals of the dialect settle it.
 fn open(dialect: &Dialect, behaviour: Behaviour, value: usize) -> Option<(String, &'static str)> {
     let open = dialect.behaviour_row(behaviour).is_some_and(|row| row.open);
     open.then_some((behaviour.option(), behaviour.values()[value]))

@@ -1,7 +1,7 @@
-//! Moves that go the short way of the usual blocks ([`crate::common::fast_block`]): which of them depend on nothing that
-//! is not settled, and what they change of the state.
+//! Fast path for usual Sinumerik blocks ([`crate::common::fast_block`]): checks that all facts of a block are known,
+//! and updates the state after it.
 //!
-//! Not here: plain moves (`fast_lower`).
+//! Not here: plain moves (`fast_lower`). The general path lowers every other block.
 
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Plane};
 use ncc_ir::expr::num::Unit;
@@ -16,8 +16,8 @@ use crate::common::known::Know;
 use crate::common::number::unit_of;
 
 impl Lower {
-    /// Lowers the line that begins at `at` of `text` the short way, as a plain move or as another usual block of at most
-    /// `longest` bytes; gives where its end is. `None`, and then nothing was done, if it is neither.
+    /// Lowers the line at byte `at` of `text` by a fast path, as a plain move or a usual block of at most `longest`
+    /// bytes. Gives the end of the line; `None` if neither fits, with the state unchanged.
     #[inline]
     pub(in crate::siemens) fn short_way(
         &mut self,
@@ -42,7 +42,7 @@ impl Lower {
         }
     }
 
-    /// The same of a usual block.
+    /// Lowers a usual block; parameters and result as for [`Lower::short_way`].
     #[inline(never)]
     fn fast_block(
         &mut self,
@@ -65,7 +65,7 @@ impl Lower {
             return self.fast_hole(plane, text, out).map(|()| end);
         }
         let skip = usual.line.skip;
-        // Of blocks that one switch skips together, the ones before count.
+        // If one skip switch covers several blocks, start from the state inside that group.
         let within = self.stretch.as_ref().filter(|stretch| skip == Some(stretch.level));
         let state = within.map_or(&self.state, |stretch| &stretch.inside);
         let moved = within.map_or(self.moved, |stretch| stretch.moved_inside);
@@ -84,7 +84,7 @@ impl Lower {
         Some(end)
     }
 
-    /// The same of a block that is a hole. What it says of the state is that no move has followed the last one.
+    /// Lowers a block that is a hole position. The state then has no last move.
     fn fast_hole(&mut self, plane: Plane, text: &[u8], out: &mut Batch) -> Option<()> {
         if !self.usual.line.is_position(plane) {
             return None;
@@ -103,13 +103,13 @@ impl Lower {
         Some(())
     }
 
-    /// The comment of the block at hand; `None` if it is not one of the text.
+    /// Comment of a line, if any. The outer `None` is a comment range outside the text.
     fn comment_of(&self, line: &Line, text: &[u8]) -> Option<Option<Box<Text>>> {
         let Some((start, end)) = line.comment else { return Some(None) };
         Some(Some(self.text_of_comment(text.get(start..end)?.trim_ascii_end())))
     }
 
-    /// The block at hand has put axes where its words say.
+    /// Updates the axis positions from the words of the line. Incremental words make a position unknown.
     fn stands_by_line(&mut self, absolute: bool, unit: Unit) {
         for (place, stand) in self.stand.axes.iter_mut().enumerate() {
             if let Some(num) = self.usual.line.length(place, unit) {
@@ -118,7 +118,7 @@ impl Lower {
         }
     }
 
-    /// Whether nothing has to be stated before the block at hand, and reported after it, because a switch may skip it.
+    /// Whether a block skip needs no extra modes before the block and no report after it.
     fn can_be_skipped(&self, state: &SiemensState, moved: Option<Motion>) -> bool {
         let said = match state.modes.motion {
             Know::Said(motion) => moved == Some(motion),
@@ -127,7 +127,7 @@ impl Lower {
         said && self.rapid_taken.is_none() && self.moves_are_settled(state)
     }
 
-    /// What the block at hand says, the motion of its code, and the one that it makes; `None` if that is not settled.
+    /// Motion of the code, effective motion, and the facts of the line; `None` if a fact is unknown.
     fn known(&self, state: &SiemensState, text: &[u8]) -> Option<(Option<Motion>, Option<Motion>, Known)> {
         let usual = &self.usual;
         let line = &usual.line;
@@ -140,7 +140,7 @@ impl Lower {
             (None, Know::Unsaid) if self.assume => return None,
             (None, _) => None,
         };
-        // A position may be that of a hole, which the tool's length counts for.
+        // A position may be a hole, and a hole needs the tool length.
         if (line.moves(Axis::Z) || motion.is_none()) && !state.modes.is_length_noted(&self.inherited) {
             return None;
         }
@@ -156,7 +156,7 @@ impl Lower {
         let path = match motion {
             Some(Motion::Arc(turn)) if !no_feed => {
                 let plane = state.modes.plane.value().filter(|plane| line.is_arc(*plane))?;
-                // A variable may have the radius's name.
+                // A variable may have the name of the radius word.
                 let radius = line.has_radius() && (line.is_radius_zero() || !self.variables.is_empty());
                 if radius || !self.repeated_blocks.knows(PLANE) {
                     return None;
@@ -185,14 +185,14 @@ impl Lower {
         Some((said, motion, known))
     }
 
-    /// The state after the block at hand; `motion` is the one that it has made.
+    /// Updates the state after the line. `said` is the motion of its code, `motion` the effective one.
     fn block_done(&mut self, said: Option<Motion>, motion: Option<Motion>) {
         let before = (self.state.modes.motion, self.state.modes.feed, self.moved);
         self.executed = true;
         let state = &mut self.state;
         let by_time = state.modes.feed_mode.value() == Some(FeedMode::InverseTime);
         if by_time {
-            // A time counts for the move of its own block.
+            // An inverse time is valid only for the move of its block.
             state.modes.feed = Know::Unsaid;
         }
         let line = &self.usual.line;

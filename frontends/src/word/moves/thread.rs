@@ -1,8 +1,12 @@
-//! Lowering of spindle-synchronised moves: threads, and a tap that goes in and out in one block.
+//! Lowers spindle-synchronised moves: threads, and a tap that moves in and out in one block.
 //!
-//! Refused: threads along several axes or round one, whose leads mean another thing on each control, and
-//! leads without a decimal point where that counts increments. What feed is active after a lead that the
-//! feed word has said is not relied on.
+//! ```text
+//! G33 Z-10. F1.5    →    SYNCHRONISED_FEED to Z-10 with a lead of 1.5
+//! ```
+//!
+//! It refuses threads along several axes or about a rotary axis, because their lead differs between controls. It also
+//! refuses a lead without a decimal point where such numbers count increments. After a lead in the feed word, ncc
+//! treats the feed as unknown. Not here: tapping cycles.
 
 use ncc_dialects::{Bare, CodeRow, Meaning, Quantity, Thread};
 use ncc_ir::canon::Axis;
@@ -22,7 +26,7 @@ use crate::word::lower::Lower;
 use crate::word::word_state::AxisWords;
 
 impl Lower {
-    /// Whether the block's feed word says a lead.
+    /// Whether the feed word of the block is a lead.
     pub(in crate::word) fn is_lead(&self, motion: &[Code]) -> bool {
         let by_feed = |row: &CodeRow| row.words.bytes().next() == Some(self.roles.feed);
         let thread = motion.iter().find(|code| matches!(code.meaning, Meaning::SynchronisedFeed(_)));
@@ -36,7 +40,7 @@ impl Lower {
         }
     }
 
-    /// The lead that the feed word says.
+    /// Records the lead of the feed word. The feed is unknown afterwards.
     pub(in crate::word) fn lead(&mut self, word: &Word, src: Source, out: &mut Batch) {
         self.state.lead = self.lead_number(word, Quantity::Feed, src, out);
         self.state.modes.feed = Know::Unsaid;
@@ -54,7 +58,7 @@ impl Lower {
         }
     }
 
-    /// A spindle-synchronised move.
+    /// Lowers a spindle-synchronised move. `row` is its code, `block` the span of its block.
     pub(in crate::word) fn thread(
         &mut self,
         row: &'static CodeRow,

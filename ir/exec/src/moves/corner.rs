@@ -1,10 +1,12 @@
-//! Execution of corners: the move before one is held back until the next move of the plane shows how
-//! much of both goes, and what is put between them.
+//! Executes corners: a round or a chamfer between two moves of the plane.
 //!
-//! Refused is what controls refuse here, or do each in a way of their own: a corner without a
-//! next move, or with anything but settings before it; beside a rapid or a move that leaves the plane;
-//! between moves of different feeds, or taken differently; in a frame that scales. Not here: the geometry
-//! (`corner`).
+//! ```text
+//! feed to X10, round of 2, feed to Y10    →    feed to X8, arc of radius 2 to X10 Y2, feed to Y10
+//! ```
+//!
+//! The executor holds back the first move until the next move is known. Then it shortens both moves and inserts
+//! the corner. It refuses corners that controls refuse or execute differently: a corner without a next move, next to
+//! a rapid move, or between moves with different feeds. Not here: the geometry (`ncc_ir::geometry::corner`).
 
 use crate::{Event, Exec, Kind, State};
 use ncc_ir::canon::{AXES, CornerShape, FeedMode, Plane};
@@ -16,12 +18,12 @@ use ncc_ir::program::{Op, Shape, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::unexecuted::{CornerUnexecuted, NoCorner};
 
-/// A corner that has been asked for and not been made.
+/// A programmed corner that is not executed yet.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Corner {
-    /// For the move that comes next.
+    /// Corner at the end of the next move.
     asked: Option<Asked>,
-    /// After the move that is held back.
+    /// Corner at the end of the move held back, with that move.
     held: Option<Held>,
 }
 
@@ -38,14 +40,14 @@ struct Held {
     plane: Plane,
     leg: Leg,
     event: Event,
-    /// What was reported since.
+    /// Events since the move held back, in order.
     reported: Vec<Event>,
 }
 
-/// What a statement is to a corner.
+/// Role of a statement while a corner is open.
 enum Part<'s> {
     Move,
-    /// A setting that may stand between the moves of a corner.
+    /// A setting that is allowed between the two moves of a corner.
     Beside,
     Corner(CornerShape, &'s Expr),
     Plane(Plane),
@@ -68,16 +70,16 @@ fn part(op: &Op) -> Part<'_> {
 }
 
 impl Exec {
-    /// The place of a corner that is still to be made, if there is one.
+    /// Span of the corner that is not executed yet, if any.
     pub fn open_corner(&self) -> Option<Span> {
         let corner = self.corner.as_ref()?;
         corner.asked.or(corner.held.as_ref().map(|held| held.asked)).map(|asked| asked.span)
     }
 
-    /// What is reported of a corner that has no next move, if there is one.
+    /// Checks that no corner is left without a next move.
     ///
     /// # Errors
-    /// There is one.
+    /// A corner is still open.
     pub fn no_open_corner(&self) -> Result<(), Diagnostic> {
         match self.open_corner() {
             None => Ok(()),
@@ -85,7 +87,10 @@ impl Exec {
         }
     }
 
-    /// Asks for a corner after the next move.
+    /// Records a corner at the end of the next move.
+    ///
+    /// # Errors
+    /// The size is not above 0, or is above [`corner::LARGEST`]; or the next move already has a corner.
     #[cold]
     pub(crate) fn ask_corner(
         &mut self,
@@ -105,7 +110,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Executes a statement while a corner is to be made.
+    /// Executes a statement while a corner is open.
     #[cold]
     pub(crate) fn step_at_corner(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let Some(mut corner) = self.corner.take() else { return self.step_on_way(stmt, out) };
@@ -140,7 +145,7 @@ impl Exec {
         Ok(())
     }
 
-    /// A move with a corner before it, after it or both.
+    /// Executes a move with a corner at its start, at its end or at both.
     fn move_at_corner(
         &mut self,
         stmt: &Stmt,
@@ -199,7 +204,10 @@ impl Exec {
         Ok(())
     }
 
-    /// The move that an event is, in the program's plane.
+    /// The move of an event in the plane, in program coordinates. `before` is its start point.
+    ///
+    /// # Errors
+    /// The move leaves the plane, has no length, or is no feed move or arc.
     fn leg(
         &self,
         event: &Event,
@@ -224,7 +232,7 @@ impl Exec {
                 let mut middle = event.end;
                 (middle[first], middle[second]) = (centre[0], centre[1]);
                 let middle = self.unplace(&middle);
-                // The sense in the program: a mirror is its own way back.
+                // Direction of the arc in the program: a mirror is its own inverse.
                 let sense = self.chain.as_ref().map_or(Some(*turn), |chain| chain.sense(plane, *turn));
                 let Some(sense) = sense else {
                     return not_told(CornerUnexecuted::Frame, span);
@@ -238,7 +246,7 @@ impl Exec {
         Ok(Leg { from, to, bend })
     }
 
-    /// Makes the corner between the move held back and the next one; both get shorter.
+    /// Inserts the corner between the move held back and the next one, and shortens both.
     fn make_corner(
         &mut self,
         held: Held,
@@ -258,7 +266,7 @@ impl Exec {
         if event.rate != next.rate {
             return not_told(CornerUnexecuted::DifferentFeeds, span);
         }
-        // A corner beside a contour has a feed of its own.
+        // With cutter compensation the inserted corner has another feed, so ignore that flag here.
         let but_for_feed = |mut state: State| {
             state.compensation.on_contour = false;
             state
@@ -303,7 +311,7 @@ impl Exec {
         Ok(())
     }
 
-    /// Refuses frames after which a length of the plane is another one.
+    /// Refuses frames that change a length in the plane, such as scaling.
     fn undistorted(&self, plane: Plane, span: Span) -> Result<(), Diagnostic> {
         if self.chain.is_none() {
             return Ok(());
@@ -324,12 +332,12 @@ impl Exec {
     }
 }
 
-/// What no control makes.
+/// Reports a corner that no control can execute.
 fn no_corner<T>(why: NoCorner, span: Span) -> Result<T, Diagnostic> {
     Err(Diagnostic::new(Fault::NoCorner { why }, span))
 }
 
-/// What no source says, or controls do each in its own way.
+/// Refuses a corner that no manual describes, or that controls execute differently.
 fn not_told<T>(what: CornerUnexecuted, span: Span) -> Result<T, Diagnostic> {
     Err(Diagnostic::new(Fault::not_executed(what), span))
 }

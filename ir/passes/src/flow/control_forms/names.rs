@@ -1,4 +1,6 @@
-//! Names of labels and of variables: new ones, and one for each place.
+//! New names for labels and variables that the pass inserts, such as `LEFT_1`, and unique label names.
+//!
+//! Not here: the loops and branches that need them (`control_forms`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,15 +9,15 @@ use ncc_ir::computed::free_variables::free_variables;
 use ncc_ir::expr::{Element, Expr, Many, Node, Scope, Target, Var};
 use ncc_ir::program::{Control, Op, Procedure, Program, Stmt, Text};
 
-/// Names of labels and variables that the program has.
+/// Names of labels and variables in use.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     labels: BTreeSet<Text>,
     variables: BTreeSet<Text>,
-    /// Highest number given so far, by kind; nothing is taken out of the sets.
+    /// Highest number used so far, by kind. The sets only grow, so no number is free again.
     last_label: BTreeMap<Text, u32>,
     last_variable: BTreeMap<Text, u32>,
-    /// Whether variables of a call have numbers, and whether any is reached by a computed number.
+    /// Whether local variables have numbers, and whether a computed number may reach any of them.
     numbered: bool,
     reached: bool,
 }
@@ -61,7 +63,7 @@ impl Names {
         }
     }
 
-    /// A name that nothing has: `LEFT_1`.
+    /// A new name of a kind: `LEFT_1`.
     fn fresh(names: &mut BTreeSet<Text>, last: &mut BTreeMap<Text, u32>, kind: &str) -> Text {
         let last = last.entry(kind.into()).or_default();
         loop {
@@ -81,7 +83,7 @@ impl Names {
         Var::Local(Names::fresh(&mut self.variables, &mut self.last_variable, kind))
     }
 
-    /// Takes down the variables that are read too.
+    /// Adds the variables that the program reads.
     pub(super) fn read(&mut self, program: &mut Program) {
         fn each(names: &mut Names, e: &Expr) {
             if let Expr::Node(node) = e {
@@ -104,8 +106,8 @@ impl Names {
         }
     }
 
-    /// A variable to work in: of a program whose variables have numbers, the last of the call's own that is free,
-    /// unless one of them is reached by a computed number.
+    /// A new work variable. If the program numbers its local variables, it is the highest free number of the ranges
+    /// `local`. It has a name instead if all are in use, or if a computed number may reach one.
     pub(super) fn room(&mut self, local: &[[u32; 2]]) -> Var {
         let numbers = local.iter().rev().flat_map(|[from, to]| (*from..=*to).rev());
         let mut free = numbers.map(|n| Text::from(n.to_string())).filter(|_| self.numbered && !self.reached);
@@ -118,7 +120,8 @@ impl Names {
         }
     }
 
-    /// Gives labels of one name different ones, with the jumps that go to each, before bodies become part of others.
+    /// Renames labels of equal name and the jumps to each. Later, bodies move into other bodies, and equal names
+    /// would then clash.
     pub(super) fn only_once(&mut self, procedure: &mut Procedure) {
         let mut labels = Labels::default();
         labels.look(&procedure.body, &mut Vec::new());
@@ -136,13 +139,13 @@ impl Names {
     }
 }
 
-/// Labels of a procedure: their places among all of them, in the order of the text, and the bodies in which they stand.
+/// Labels of a procedure. For each name: its indices in text order, each with the numbers of the enclosing bodies.
 #[derive(Debug, Default)]
 struct Labels {
     found: BTreeMap<Text, Vec<(usize, Vec<usize>)>>,
     count: usize,
     bodies: usize,
-    /// Whether blocks between labels are repeated, which have their own way of finding them.
+    /// Whether the procedure repeats blocks between labels. That statement finds labels by other rules.
     repeats: bool,
 }
 
@@ -164,8 +167,8 @@ impl Labels {
         within.pop();
     }
 
-    /// The place of the label to which a jump goes that stands after so many labels: the next one of the name, else
-    /// the first, of those that stand in a body in which the jump stands.
+    /// Index of the jump target `name` for a jump after `behind` labels in the bodies `within`: the next label of that
+    /// name, else the first. Only labels in enclosing bodies count.
     fn reached(&self, name: &str, behind: usize, within: &[usize]) -> Option<usize> {
         let places = self.found.get(name)?;
         let mut reached = places.iter().filter(|(_, bodies)| within.starts_with(bodies)).map(|(at, _)| *at);
@@ -174,11 +177,11 @@ impl Labels {
     }
 }
 
-/// Gives labels their names, and jumps those of the labels to which they go.
+/// Renames labels, and the jumps to them.
 struct Renaming<'l> {
     labels: &'l Labels,
     names: &'l BTreeMap<usize, Text>,
-    /// Labels and bodies that have been passed.
+    /// Number of labels passed, then (`next`) of bodies passed.
     at: usize,
     next: usize,
 }
@@ -211,8 +214,8 @@ impl Renaming<'_> {
     }
 }
 
-/// Of labels one after the other, jumps go to the first, and the others are gone: those alone that stand in blocks
-/// of their own and that this has made.
+/// Merges consecutive labels into one and redirects the jumps. It removes only labels that this pass inserted, and
+/// keeps a label of the program if the run has one.
 pub(super) fn one_label_a_place(body: &mut Vec<Stmt>) {
     let mut names = BTreeMap::new();
     merge(body, &mut names);
@@ -252,7 +255,7 @@ fn merge(body: &mut Vec<Stmt>, names: &mut BTreeMap<Text, Text>) {
     }
 }
 
-/// Whether a label is of this pass's making: it has neither a number nor a comment.
+/// Whether this pass inserted the label: its prefix is known, and it has no number, comment or block skip.
 fn is_made(stmt: &Stmt) -> bool {
     let own = ["OVER_", "ELSE_", "LEFT_", "NEXT_", "AGAIN_"];
     let made = matches!(&stmt.op, Op::Label(name) if own.iter().any(|own| name.starts_with(own)));
