@@ -1,7 +1,7 @@
-//! A program ready to be executed, for verbs that look at one program or hold two side by side.
+//! One program, ready for execution: for commands that inspect one program or compare two.
 //!
-//! A side is a [`Job`] that translates the program into its own dialect, because that is what execution and the
-//! rendering of diagnostics ask for.
+//! A side has a [`Job`] with its own dialect as source and target. Execution and diagnostics need a job.
+//! Not here: the execution and the comparison.
 
 use ncc_dialects::{Dialect, Settings};
 use ncc_ir::canon::AXES;
@@ -14,21 +14,21 @@ use crate::source::Source;
 /// A program, ready to be executed.
 #[derive(Debug)]
 pub struct Side {
-    /// Its text.
+    /// Text and name, with the files that it calls.
     pub source: Source,
-    /// Its dialect, options and machine; as a translation into itself.
+    /// Dialect, options and machine. Source and target are equal.
     pub job: Job,
 }
 
 impl Side {
-    /// Its dialect.
+    /// Dialect of the program.
     pub fn dialect(&self) -> &'static Dialect {
         self.job.from.dialect
     }
 }
 
 impl Side {
-    /// A program of a dialect with its options.
+    /// Makes a side. `start` is the start position in nanos; an axis with `None` is not stated.
     pub fn of(
         source: Source,
         from: Settings,

@@ -1,16 +1,14 @@
-//! Canonical calls in the form in which LinuxCNC's stand-alone interpreter prints them, as far as the
-//! count and the block number before each call.
+//! Prints canonical calls as LinuxCNC's stand-alone interpreter does, without the count and the block number before
+//! each call: `G1 X10 F100` gives `SET_FEED_RATE(100.0000)` and `STRAIGHT_FEED(10.0000, …)`.
 //!
-//! A program of a control that works as that one does is executed with all tables zero at first, from program
-//! zero in millimetres, and every call is written where the interpreter makes it: a block's calls in its
-//! own order, cycles as its expansion of them, its notes on modes that make no call, what it does before
-//! the first block and after the last. Subprograms are followed into. Cutter radius compensation makes no
-//! call: what is printed is the tool centre path, by the radius that the program or the table of
-//! tools states.
+//! The printer executes the program from program zero, in millimetres, with the given tables. It writes each call at
+//! the point where the interpreter makes it. This includes the order of calls in a block, expanded cycles, the
+//! interpreter's notes on modes, and its calls before the first and after the last block. The printer follows
+//! subprogram calls. Cutter compensation makes no call: the printer writes the tool centre path, with the radius from
+//! the program or the tool table.
 //!
-//! Points are in the program's coordinates, as shifted and turned as they are; what sets or applies an offset prints
-//! its values. Refused is what needs a table (lengths of tools that neither the program nor a profile has stated), and
-//! what this control has no call for.
+//! Points are in program coordinates. A change of an offset prints its values. Refused: a tool length that neither
+//! the program nor a profile states, and functions without a canonical call.
 
 mod arcs;
 mod feeds;
@@ -42,13 +40,13 @@ use ncc_passes::{Compensating, Target};
 
 use self::order::{overtakes, rank};
 
-/// How far the interpreter stands before where it takes a probe to have touched: 0.01 inch.
+/// Distance between the interpreter's position after a probing move and the touch point: 0.01 inch, in nanos of a mm.
 pub const BACKS_OFF: Nanos = 254 * ONE / 1000;
 
-/// Most calls one within another.
+/// Highest depth of nested subprogram calls.
 const DEPTH: u32 = 10;
 
-/// What a spindle does.
+/// State of the spindle.
 #[derive(Clone, Copy, PartialEq)]
 enum Turning {
     Stopped,
@@ -56,11 +54,11 @@ enum Turning {
     Counterclockwise,
 }
 
-/// Prints the calls of a program; `source` is its text, of which the comments are shown, and `tables` has lengths
-/// and radii of tools by their numbers, and `arcs` is which arcs the interpreter takes.
+/// Prints the calls of a program. `source` is its text, for the comments. `tables` has tool lengths and radii by tool
+/// number. `arcs` is the interpreter's rule for valid arcs.
 ///
 /// # Errors
-/// The interpreter refuses it, or it says what this printer has no table for.
+/// The interpreter refuses the program, or the program needs a table value or a function that the printer lacks.
 pub fn print(program: &Program, source: &[u8], tables: &Tables, arcs: ArcRule) -> Result<String, Diagnostic> {
     let entry = Modes {
         units: Some(Units::Mm),
@@ -82,7 +80,7 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables, arcs: ArcRule) -
     world.length_by_change = true;
     world.arcs = arcs;
     let mut exec = Exec::new(&world, 0);
-    // The interpreter makes a call of a move that goes nowhere too.
+    // The interpreter also makes a call for a move without motion.
     exec.every_move();
     let straight = flatten::by(program, &start, exec.clone())?;
     let program = &write_offset_path(straight.as_ref().unwrap_or(program), &start, tables)?;
@@ -131,36 +129,36 @@ struct Printer<'p> {
     program: &'p Program,
     source: &'p [u8],
     tables: &'p Tables,
-    /// The rule by which the interpreter takes arcs.
+    /// The interpreter's rule for valid arcs.
     arcs: ArcRule,
     out: String,
     /// Modes, position and the active cycle.
     at: Tracker,
-    /// The same by execution, which knows the frames.
+    /// The executed state, which also has the frames.
     exec: Exec,
     turning: Turning,
     mist: bool,
     flood: bool,
     offset: u16,
-    /// The feed that was stated last.
+    /// Last printed feed.
     feed: Option<f64>,
-    /// The limit of the spindle that the block says.
+    /// Spindle speed limit of the current block.
     limit: Option<f64>,
-    /// Whether the block's move is a probing one.
+    /// Whether the next feed move is a probing move.
     probing: bool,
-    /// What the statement at hand makes the machine do.
+    /// Machine events of the current statement.
     made: Vec<Event>,
-    /// Whether calls of moves wait in the interpreter's queue for what the next one is.
+    /// Whether cutter compensation is active: then the interpreter holds each move until it knows the next one.
     beside: bool,
-    /// How corners are taken, how far from the path, and how far off moves made one may lie, in the unit that was
-    /// active.
+    /// Path mode. `within` is its tolerance, and `merged` the tolerance for merging moves; both in the unit that was
+    /// active at the code.
     path: PathMode,
     within: f64,
     merged: f64,
     ended: bool,
 }
 
-/// The program with coordinates in place of polar words, and the tool centre path in place of contours.
+/// Replaces polar words by coordinates, and compensated contours by the tool centre path.
 fn write_offset_path(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
     let compensating = Compensating {
         rules: Rules::INTERPRETER,
@@ -193,7 +191,7 @@ impl Printer<'_> {
         let mut from = 0;
         while from < stmts.len() && !self.ended {
             let mut end = from + 1;
-            // A cycle's repetitions are blocks of their own at one place.
+            // Repetitions of a cycle are separate statements with one span; they print as one block.
             let again =
                 |a: &Stmt, b: &Stmt| a.span == b.span && matches!((&a.op, &b.op), (Op::Hole(_), Op::Hole(_)));
             while end < stmts.len() && (stmts[end].joined || again(&stmts[end - 1], &stmts[end])) {
@@ -215,7 +213,7 @@ impl Printer<'_> {
             let _ = writeln!(self.out, "COMMENT(\"{}\")", String::from_utf8_lossy(text.trim_ascii_start()));
         }
         self.limit = self.limit_of(stmts)?;
-        // The feed of a cycle's block; a cycle that is activated with other words says it once more.
+        // The feed of a cycle's block. A cycle that starts again with other words repeats it: print changes only.
         for stmt in stmts {
             if let Op::StartCycle(cycle) = &stmt.op
                 && let Some(feed) = &cycle.feed
@@ -226,7 +224,7 @@ impl Printer<'_> {
                 }
             }
         }
-        // The stop of the spindle that belongs to a tool change is printed with it.
+        // The tool change prints its spindle stop itself.
         let changes = |span| stmts.iter().any(|s| s.span == span && matches!(s.op, Op::ChangeTool));
         let implied = |s: &&Stmt| matches!(s.op, Op::StopSpindleTurning) && changes(s.span);
         let mut ordered: Vec<&Stmt> = stmts.iter().filter(|s| !implied(s)).collect();
@@ -262,14 +260,14 @@ impl Printer<'_> {
 
     fn statement(&mut self, stmt: &Stmt) -> Result<(), Fault> {
         if self.beside && overtakes(&stmt.op) {
-            // It would be printed before the move that waits for the next one.
+            // The interpreter would print it before the move that it still holds.
             return Err(cannot(CompensationLack::Listed { function: stmt.op.name() }));
         }
         match &stmt.op {
-            // A comment is the block's.
+            // `block` prints the comment.
             Op::Comment(_) | Op::Blank | Op::Return | Op::EndCycle | Op::StartCycle(_) | Op::NoEffect(_) => {}
             Op::Lines(lines) => return lines.unpack().try_for_each(|stmt| self.statement(&stmt)),
-            // What is printed to the error output is no call.
+            // A message to the error output is not a call.
             Op::Message(_) if self.is_printed(stmt) => {}
             Op::Message(text) => {
                 let _ = writeln!(self.out, "MESSAGE(\"{text}\")");
@@ -297,7 +295,7 @@ impl Printer<'_> {
                 self.note(notes::COMPENSATION_OFF);
             }
             Op::SetFeedMode(mode) => self.feed_mode(*mode)?,
-            // By time, each move gets its own.
+            // Inverse time: each move prints its own feed.
             Op::SetFeedRate(feed) if self.at.modes.feed_mode == Some(FeedMode::InverseTime) => {
                 self.feed = Some(literal(feed)?);
             }
@@ -306,7 +304,7 @@ impl Printer<'_> {
                 self.feed(feed);
             }
             Op::SetSpindleMode(mode) => self.spindle_mode(*mode),
-            // It goes with the mode.
+            // The limit is printed with the spindle mode.
             Op::LimitSpindleSpeed(_) => {}
             Op::SetSpindleSpeed(speed) => {
                 let _ = writeln!(self.out, "SET_SPINDLE_SPEED(0, {:.4})", literal(speed)?);
@@ -353,9 +351,9 @@ impl Printer<'_> {
                     self.work_turn(offset);
                 }
                 Data::Offset { .. } => self.note(notes::OFFSET_SET),
-                // The block's entry is printed after all that it sets; radii have no place in that call.
+                // `tool_entries` prints the entry at the end of the block; that call has no radius.
                 Data::Tool { .. } | Data::Measured { .. } => {}
-                // It is kept without a call.
+                // The interpreter stores it without a call.
                 Data::Position(_) => {}
                 Data::ToolInSpindle(_) => self.tool_in_spindle(),
             },
@@ -390,7 +388,7 @@ impl Printer<'_> {
             Op::SetMotionControlMode(control) => {
                 self.path = control.mode;
                 self.within = match &control.within {
-                    // In the active unit.
+                    // In the unit that is active here.
                     Some(within) => literal(within)?,
                     None => 0.0,
                 };
@@ -442,13 +440,13 @@ impl Printer<'_> {
         Ok(())
     }
 
-    /// Whether a message is one that goes to the error output.
+    /// Whether a message goes to the error output: its comment starts with `PRINT,`.
     fn is_printed(&self, stmt: &Stmt) -> bool {
         let text = self.source.get(stmt.span.start as usize..).unwrap_or_default().trim_ascii_start();
         text.get(..6).is_some_and(|word| word.eq_ignore_ascii_case(b"PRINT,"))
     }
 
-    /// The way of taking corners that is active. The tolerance of moves that are made one goes with it.
+    /// Prints the path mode; for path blending also the tolerance for merging moves.
     fn path_control(&mut self) {
         match self.path {
             PathMode::ExactPath => self.call("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"),
@@ -481,7 +479,7 @@ impl Printer<'_> {
         }
     }
 
-    /// The end of the program; M30 exchanges the pallets.
+    /// Prints the calls of the program end; `pallets` (M30) adds the pallet change.
     fn end(&mut self, pallets: bool) {
         self.work_offset(1);
         self.work_turn(1);
@@ -504,7 +502,7 @@ impl Printer<'_> {
         self.ended = true;
     }
 
-    /// Where a point's words lead, nanos.
+    /// End point of a move, in nanos. Fails if the position of an axis is unknown.
     fn target(&self, to: &Point) -> Result<[Nanos; AXES], Fault> {
         let target = self.at.target(to);
         let mut known = [0; AXES];
@@ -518,7 +516,7 @@ impl Printer<'_> {
         self.target(&Point::default())
     }
 
-    /// A length in the active unit, or an angle.
+    /// A coordinate as printed: axes 0 to 2 in the active unit, others in degrees.
     fn shown(&self, axis: usize, nanos: Nanos) -> f64 {
         let unit = if axis < 3 && self.inch() { 25.4 } else { 1.0 };
         nanos as f64 / ONE as f64 / unit
@@ -534,8 +532,8 @@ impl Printer<'_> {
     }
 }
 
-/// The last comment in brackets of the line at a place; what follows a semicolon is none, and that of a block which
-/// begins with the letter of programs is not shown.
+/// The last comment in brackets of the line at byte `at`. Text after a semicolon does not count. A block that starts
+/// with the letter O gives `None`.
 fn last_comment(source: &[u8], at: usize) -> Option<&[u8]> {
     let start = source.get(..at)?.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
     let line = source[start..].split(|b| *b == b'\n').next()?;

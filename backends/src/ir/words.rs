@@ -1,4 +1,6 @@
-//! Words of the `ir` text that several statements have: names, coordinates, points, planes.
+//! Words that several statements of the `ir` text share: names, coordinates, points, planes.
+//!
+//! The incremental word `G91 X5`, in mm, is `X inc 5mm` as text. Not here: the statements, and expressions (`expr`).
 
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Turn};
 use ncc_ir::expr::Expr;
@@ -11,7 +13,7 @@ pub(super) fn put(text: &str, out: &mut Vec<u8>) {
     out.extend_from_slice(text.as_bytes());
 }
 
-/// Writes a name: bare if it is a plain number, else in quotation marks.
+/// Writes a name: bare if it is a number of 1 to 18 digits without leading zeros, else in quotation marks.
 pub(super) fn name(text: &str, out: &mut Vec<u8>) {
     let number = text.bytes().all(|b| b.is_ascii_digit())
         && (1..=18).contains(&text.len())
@@ -19,7 +21,7 @@ pub(super) fn name(text: &str, out: &mut Vec<u8>) {
     if number { put(text, out) } else { text_argument(text, out) }
 }
 
-/// A text between quotation marks; an escape is no loss here, since the reader undoes it.
+/// Writes a text between quotation marks. The reader undoes each escape, so nothing is lost.
 pub(super) fn text_argument(text: &str, out: &mut Vec<u8>) {
     let _escaped = quote(text, out);
 }
@@ -31,7 +33,7 @@ pub(super) fn further(arguments: &[Expr], out: &mut Vec<u8>) {
     }
 }
 
-/// Writes axis words with commas between, and `after` each.
+/// Writes the axis words of a point, each followed by `after`. With an empty `after`, commas separate them.
 pub(super) fn point(to: &Point, after: &[u8], out: &mut Vec<u8>) {
     let mut first = true;
     for axis in Axis::ALL {

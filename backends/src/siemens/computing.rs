@@ -1,7 +1,7 @@
 //! Statements of programs that compute, in Sinumerik's language: assignments, branches with their blocks, loops,
 //! and jumps to labels.
 //!
-//! A jump states whether its label is before it or after it. Expressions are written by the dictionary (`common::formula`).
+//! `GOTO 10` becomes `GOTOB` if label 10 is already written, else `GOTOF`. `common::formula` writes the expressions.
 //!
 //! Not here: the variables (`passes/variables`), their types, and calls with arguments (`variable`).
 
@@ -28,17 +28,18 @@ const LAST_EVERYWHERE: u32 = 99;
 pub(super) struct Computing {
     /// Whether the program computes at all.
     pub(super) program: bool,
-    /// Jump targets.
+    /// Labels of all jumps and block repetitions in the program.
     targets: BTreeSet<Text>,
     /// Jump targets of the current unit that are already written.
     written: BTreeSet<Text>,
     /// Whether the program has cycles, each called in the basic block of its holes.
     cycles: bool,
-    /// Statements with words in a distance mode of their own, where other words depend on the active mode; by place.
+    /// Source positions of statements with a distance mode per word (`IC`, `AC`), if other words depend on the
+    /// active mode.
     pub(super) word_distance: BTreeSet<u32>,
     told_number: bool,
     told_comparison: bool,
-    /// Open structures.
+    /// Number of open branches and loops around the current block.
     deep: usize,
 }
 
@@ -68,7 +69,7 @@ impl Writer {
         self.words.know_modes(entries);
     }
 
-    /// Starts a unit.
+    /// Starts a unit: none of its labels is written yet.
     pub(super) fn no_labels_yet(&mut self) {
         self.computing.written.clear();
     }
@@ -112,7 +113,7 @@ impl Writer {
         self.without_cycle(left, sink)
     }
 
-    /// Variables above R99 depend on the machine.
+    /// Reports once that variables above R99 depend on the machine data.
     pub(super) fn tell_number(&mut self, variable: &str, span: Span, sink: &mut Sink) {
         let number = variable.strip_prefix(&self.dialect.formula.prefix).and_then(|n| n.parse::<u32>().ok());
         if number.is_some_and(|n| n > LAST_EVERYWHERE)
@@ -123,7 +124,7 @@ impl Writer {
         }
     }
 
-    /// Two nearly equal numbers are equal for `<` and `>` too, unless machine data decide otherwise.
+    /// Reports once that `<` and `>` treat nearly equal numbers as equal, unless machine data decide otherwise.
     pub(super) fn tell_comparison(&mut self, condition: &str, span: Span, sink: &mut Sink) {
         let exact = condition.contains(['<', '>']);
         if exact && !std::mem::replace(&mut self.computing.told_comparison, true) {
@@ -131,7 +132,7 @@ impl Writer {
         }
     }
 
-    /// A jump.
+    /// Writes a jump in its own block: `GOTOF` or `GOTOB`.
     pub(super) fn go_to(&mut self, label: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.words.spelling(None)?;
         self.flow(span, sink)?;
@@ -152,7 +153,7 @@ impl Writer {
         self.restate_feed(span, sink)
     }
 
-    /// A branch or a loop.
+    /// Writes a branch or a loop with its body. Refuses it if the block has a block skip.
     pub(super) fn structure(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let span = stmt.span;
         self.words.spelling(None)?;
@@ -231,8 +232,7 @@ impl Writer {
         Ok(())
     }
 
-    /// A label before a keyword has a block of its own: no manual found allows both in one
-    /// block.
+    /// Ends the block of a label before a keyword. No manual at hand allows both in one block.
     fn behind_label(&mut self, sink: &mut Sink) {
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
@@ -262,7 +262,7 @@ impl Writer {
     }
 }
 
-/// Whether the blocks, or their bodies, contain such a statement.
+/// Whether the blocks, or their bodies, contain a statement with `is`.
 fn any(body: &[Stmt], is: fn(&Op) -> bool) -> bool {
     body.iter().any(|stmt| {
         if let Op::Control(control) = &stmt.op
@@ -274,7 +274,7 @@ fn any(body: &[Stmt], is: fn(&Op) -> bool) -> bool {
     })
 }
 
-/// Calls or cancels cycles.
+/// Whether a statement may call or cancel a cycle.
 fn changes_cycle(op: &Op) -> bool {
     matches!(op, Op::StartCycle(_) | Op::EndCycle | Op::Pattern(_) | Op::Call(_))
 }

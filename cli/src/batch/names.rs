@@ -1,7 +1,10 @@
-//! The names of a batch's outputs: none is that of a source, no two programs have one, and none is that of
-//! a subprogram which programs translated before call.
+//! Checks the output names of a batch, so that no output replaces a file that somebody needs.
 //!
-//! Names that differ in capitals alone are one name: a folder on the machine may not tell them apart.
+//! An output may not have the name of a source or of another output. It may not replace a different subprogram
+//! that earlier programs in the folder call. Names that differ only in case are equal: `a.nc` and `A.NC` clash,
+//! because a file system may ignore case.
+//!
+//! Not here: the choice of the names, and writing the files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -12,18 +15,18 @@ use sha2::{Digest, Sha256};
 
 use super::gather::{Identity, identity};
 
-/// A name that a program's output is to have.
+/// A path that one program wants for an output file.
 #[derive(Clone, Debug)]
 pub(super) struct Claim {
-    /// Which program.
+    /// Index of the program in the batch.
     pub(super) by: usize,
-    /// The path.
+    /// Path of the output file.
     pub(super) path: PathBuf,
-    /// What several programs may have in common, if it is the same: the hash of a subprogram.
+    /// SHA-256 of a subprogram: programs may share its file if the hash is equal. `None` for the program itself.
     pub(super) shared: Option<[u8; 32]>,
 }
 
-/// The programs that cannot have the names they claim, with the reason.
+/// Programs with a claim on a source or on another program's output, each with its problem.
 pub(super) fn refused(
     claims: &[Claim],
     sources: &BTreeSet<Identity>,
@@ -49,7 +52,7 @@ pub(super) fn refused(
             continue;
         }
         for claim in claims {
-            // A program whose own parts are at odds has no other.
+            // Two files of the same program may clash: then the message names this program twice.
             let other = claims.iter().find(|c| c.by != claim.by).unwrap_or(claim);
             let message = format!(
                 "{}: its output {} would also be that of {}",
@@ -64,9 +67,9 @@ pub(super) fn refused(
     refused
 }
 
-/// The programs whose subprograms have names of files that are there with something else in them. What
-/// calls those was verified with them, and would call another text. A program that is there itself is
-/// written again, with what it calls.
+/// Programs whose subprogram would replace a different file in the folder, each with its problem. Other programs in
+/// the folder may call that file, and were verified with it. ncc may replace it if the folder already has a main
+/// program that calls it and that this batch writes again.
 pub(super) fn at_odds_with_the_folder(
     claims: &[Claim],
     shown: &dyn Fn(usize) -> String,
@@ -91,7 +94,7 @@ pub(super) fn at_odds_with_the_folder(
     refused
 }
 
-/// Whether a file is there, and is not a subprogram of that hash.
+/// Whether the file exists with another SHA-256 than `own`.
 pub(super) fn holds_another(path: &Path, own: &[u8; 32]) -> bool {
     fs::read(path).is_ok_and(|text| Sha256::digest(&text)[..] != own[..])
 }

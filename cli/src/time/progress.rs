@@ -1,4 +1,6 @@
-//! How far a long program has come, on a terminal.
+//! Progress bar of `ncc time` for a long program, on a terminal. It shows the share of the file and the machine time.
+//!
+//! Not here: the estimate, which calls the bar ([`Watch`]).
 
 use std::time::{Duration, Instant};
 
@@ -7,16 +9,16 @@ use ncc_driver::render::terminal::one_line;
 use ncc_driver::time::drive::Watch;
 use ncc_driver::time::duration::hms;
 
-/// Before so long nothing is shown: most programs are done by then.
+/// Delay before the bar appears. Most programs end earlier.
 const PATIENCE: Duration = Duration::from_millis(400);
 
-/// How often the line is renewed at most, times a second.
+/// Highest number of updates per second.
 const RATE: u8 = 10;
 
-/// So many functions of a program kept whole are passed between two looks at the watch.
+/// Number of calls of [`Watch::now`] between two updates of the bar.
 const EVERY: u32 = 4096;
 
-/// A bar on stderr, or nothing where nobody would see it.
+/// A bar on stderr; no bar if stderr is not a terminal.
 pub(crate) struct Progress {
     bar: Option<ProgressBar>,
     begun: Instant,
@@ -24,7 +26,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Of a file of so many bytes.
+    /// Makes the bar of file `name` with a length of `bytes`; no bar unless `wanted`.
     pub(crate) fn new(name: &str, bytes: u64, wanted: bool) -> Progress {
         let bar = wanted.then(|| {
             let target = ProgressDrawTarget::stderr_with_hz(RATE);
@@ -32,7 +34,7 @@ impl Progress {
             let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::with_draw_target(Some(bytes), target).with_style(style).with_prefix(one_line(name))
         });
-        // Nobody looks: nothing is counted either.
+        // A hidden bar would only cost time.
         let bar = bar.filter(|bar| !bar.is_hidden());
         Progress { bar, begun: Instant::now(), passed: 0 }
     }

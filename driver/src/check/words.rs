@@ -1,24 +1,27 @@
-//! Chooses the entry of `messages/` for a finding, with its values. Lists the checks that were not made.
+//! Chooses the entry of `messages/` for a finding, with its values. Lists the checks that ncc could not make.
+//!
+//! Example: a feed move with the spindle stopped gives the form `stopped` of its message.
+//! Not here: the checks themselves (`ncc_check`), and the texts.
 
 use ncc_check::{Checked, Finding, LeftOn, Outside, StandardPitch, Unchecked, What};
 use ncc_ir::expr::num::Nanos;
 
 use crate::render::messages::message::{Message, Part};
 
-/// A value in nanos, as a decimal without zeros at its end.
+/// A value in nanos as a decimal with at most 6 places, without trailing zeros: `1.5`.
 pub fn decimal(nanos: Nanos) -> String {
     let text = format!("{:.6}", nanos as f64 / 1e9);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A pitch that was computed from F and S, to a micrometre, or to three figures where it is smaller.
+/// A pitch computed from F and S, in nanos: 3 decimal places, or 6 below 0.1. No trailing zeros.
 fn pitch_of(nanos: Nanos) -> String {
     let digits = if nanos < 100_000_000 { 6 } else { 3 };
     let text = format!("{:.digits$}", nanos as f64 / 1e9);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The message of a finding.
+/// The message of a finding: its code, its form and its values.
 pub(super) fn message(finding: &Finding) -> Message {
     let m = Message::new(finding.what.rule().code()).count("more", finding.more);
     match &finding.what {

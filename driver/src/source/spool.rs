@@ -1,41 +1,42 @@
-//! Bytes that are written once and read again: kept in memory, and beyond a limit wherever the host keeps more.
+//! A buffer that ncc writes and reads again: in memory up to a limit, then spilled to a store of the host.
 //!
-//! A library or a page keeps all of it in memory. A host that has files gives a way to make them, once ([`overflow_to`]).
+//! A library or a web page keeps all bytes in memory. A host with files registers a store once ([`overflow_to`]).
+//! Not here: the temporary files themselves (the host makes them).
 
 use std::fmt;
 use std::io::{self, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// Bytes of an output that are kept in memory.
+/// Default limit of a spool in memory: 1 MiB.
 pub const IN_MEMORY: usize = 1 << 20;
 
-/// Where a host keeps what is too long for memory. Its errors may be a [`Lacking`].
+/// Storage of a host for a spilled buffer, for example a temporary file. Its errors may be a [`Lacking`].
 pub trait Store: Read + Write + Seek + Send + fmt::Debug {}
 
 impl<T: Read + Write + Seek + Send + fmt::Debug> Store for T {}
 
-/// Makes a store without anything in it.
+/// Makes an empty store.
 pub type MakeStore = fn() -> io::Result<Box<dyn Store>>;
 
 static OVERFLOW: OnceLock<MakeStore> = OnceLock::new();
 
-/// Has what is longer than a spool's limit kept in stores of the host from now on; the first call counts.
+/// Registers the host's store for spools that pass their limit. Only the first call has an effect.
 pub fn overflow_to(make: MakeStore) {
     let _ = OVERFLOW.set(make);
 }
 
-/// A store of the host that cannot be made, or cannot be written further.
+/// Error: the host cannot make a store or write to it.
 #[derive(Debug)]
 pub struct Lacking {
-    /// The folder of temporary files.
+    /// Folder of the temporary files.
     pub folder: PathBuf,
-    /// Why.
+    /// Reason, for example the text of the I/O error.
     pub reason: String,
 }
 
 impl fmt::Display for Lacking {
-    /// For a developer; users get the words of the messages.
+    /// For developers; users see the texts in `messages/`.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "{}: {}", self.folder.display(), self.reason)
     }
@@ -43,7 +44,7 @@ impl fmt::Display for Lacking {
 
 impl std::error::Error for Lacking {}
 
-/// Bytes kept in memory, and beyond a limit in a store of the host if it has any.
+/// Bytes in memory, or in a store of the host once they pass the limit. Without a store, all stay in memory.
 #[derive(Debug)]
 pub struct Spool {
     held: Held,
@@ -57,17 +58,17 @@ enum Held {
 }
 
 impl Spool {
-    /// So many bytes stay in memory.
+    /// Makes an empty spool; `in_memory` is its limit in bytes.
     pub fn new(in_memory: usize) -> Spool {
         Spool { held: Held::Memory(Cursor::new(Vec::new())), in_memory }
     }
 
-    /// One that holds a text, and stands at its beginning.
+    /// Makes a spool with this content; the next read starts at its first byte.
     pub fn of(text: Vec<u8>) -> Spool {
         Spool { held: Held::Memory(Cursor::new(text)), in_memory: IN_MEMORY }
     }
 
-    /// Lets go of all that it holds.
+    /// Empties the spool and frees its memory or its store.
     pub fn clear(&mut self) {
         self.held = Held::Memory(Cursor::new(Vec::new()));
     }

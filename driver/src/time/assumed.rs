@@ -1,4 +1,7 @@
-//! What a timing assumes, in the few words of a summary.
+//! Assumptions of a time estimate, as short lines of its summary: `rapid rate of X Y = …`, `G54 is machine zero`.
+//!
+//! Five groups: the program, the run, the profile, the machine and the tables of offsets and lengths.
+//! Not here: the estimate itself (`drive`), and the texts (`messages/time`).
 
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
@@ -15,7 +18,7 @@ use crate::render::messages::message::{Message, Part};
 use crate::render::messages::words::{Context, unreachable, words};
 use crate::render::spelled;
 
-/// Of the program and its control: what the front-end assumed.
+/// Assumptions of the front-end about the program and its control. Each line appears once.
 pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
     let dialects = [job.from.dialect, job.to.dialect];
     let assumed = diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Verdict(Verdict::Assumed));
@@ -36,7 +39,7 @@ pub fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
     lines
 }
 
-/// Of the run: where it starts, which switches are on, what has no place in it.
+/// Assumptions about the run: its start position, block skip, operator stops, tilted planes, contours and tables.
 pub fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
     let silent: Vec<String> = Axis::ALL
@@ -77,7 +80,7 @@ pub fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
     lines
 }
 
-/// Of contours under cutter compensation: which are timed along what.
+/// Assumptions about contours under cutter compensation: timed on the tool centre path or as programmed.
 fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
     if !course.compensates {
         return Vec::new();
@@ -116,7 +119,7 @@ fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
     lines
 }
 
-/// From where on contours are timed as programmed, and why if that is known.
+/// The first line whose contour is timed as programmed, with the reason if ncc knows it.
 fn from_line(line: u32, why: Option<String>) -> String {
     match why {
         Some(why) => Message::part(Part::Time, "as-programmed-why").text("why", why),
@@ -126,8 +129,8 @@ fn from_line(line: u32, why: Option<String>) -> String {
     .headline()
 }
 
-/// Of the table of work offsets. Where a program keeps to one of them and to its own coordinates, nothing
-/// depends on it.
+/// Assumptions about the table of work offsets. A program with one work offset and no machine coordinates needs
+/// none.
 fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
     if course.offsets.len() < 2 && !course.in_machine {
         return Vec::new();
@@ -163,7 +166,7 @@ fn offset(plan: &Plan, number: u16) -> String {
     spelled::work_offset(number, [plan.job.from.dialect, plan.job.to.dialect])
 }
 
-/// Of the table of lengths.
+/// Assumptions about the table of tool lengths. A program without a tool length offset needs none.
 fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
     let is_stated = |length: &Length| match length {
         Length::Entry(entry) => plan.tables.lengths.contains_key(entry),
@@ -193,7 +196,7 @@ fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
     .collect()
 }
 
-/// Of the machine: what its profile states, but marks as assumed.
+/// Machine facts that the profile marks as assumed. A typical profile gives one line for all.
 pub fn of_profile(profile: &Profile) -> Vec<String> {
     if profile.schema.typical {
         return vec![Message::part(Part::Time, "typical").headline()];
@@ -223,7 +226,7 @@ pub fn of_profile(profile: &Profile) -> Vec<String> {
     }
 }
 
-/// Of the machine: what its profile does not state, and neither does the model.
+/// Machine facts that the profile lacks, with the value that the model uses. Axes that never move are left out.
 pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<String> {
     let moved = &course.moved;
     let machine = &plan.machine;
@@ -241,7 +244,7 @@ pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<St
         );
     }
     if plan.model == Model::Ideal && course.bounds.is_some() {
-        // The upper bound needs more than the model does.
+        // The upper bound needs accelerations; the ideal model does not.
         let (_, all) = machine.assumed(Model::Trapezoidal);
         let needed: Vec<AssumedFact> = all.into_iter().filter(|f| f.fact == Fact::Acceleration).collect();
         lines.extend(
@@ -253,7 +256,7 @@ pub fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<St
     lines
 }
 
-/// The words for a fact that a model needs.
+/// Text of a machine fact, without its value: `rapid rate`.
 fn fact_words(fact: Fact) -> String {
     let form = match fact {
         Fact::RapidRate => "fact-rapid-rate",

@@ -1,20 +1,20 @@
-//! The pipeline: read, bring within the target's capabilities, write, read back, compare.
+//! The pipeline: read, legalise for the target, write, read back, compare.
 //!
-//! A program streams through in pieces of whole lines until its first call, label or loop, and is
-//! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
-//! difference; the caller decides where a released output goes.
+//! A program streams in pieces of whole lines until its first call, label or loop. From there ncc keeps it whole.
+//! ncc releases no output with an error, a loss that is not allowed, or a difference. The caller decides
+//! where a released output goes.
 //!
 //! ```text
-//! `translation`   what is between source and output
-//! `pipeline`      the steps, from what was read to what is released
-//! `writing`       the text, and passing it on
-//! `tabled`        lines of a piece as a table
-//! `beside`        the verification on a second thread
-//! `per_tool`      a file for each use of a tool
-//! `outcome`       what comes of it at the end
+//! `translation`   state of one translation
+//! `pipeline`      steps from the parsed piece to the released text
+//! `writing`       writes the text and passes it on after verification
+//! `tabled`        fast path: lines of a piece as a table
+//! `beside`        verification on a second thread
+//! `per_tool`      one file for each use of a tool, cut at the tool changes
+//! `outcome`       head of the output, counts, and the release
 //! ```
 //!
-//! Not here: how a difference or a refusal is reported (`render`).
+//! Not here: the report of a difference or a refusal (`render`).
 
 mod beside;
 pub mod heading;
@@ -46,23 +46,23 @@ use crate::source::Readable;
 use crate::source::chunks::{Chunk, Chunks, ends_by_return};
 use crate::source::reader::reader_for;
 
-/// After so many errors, reading more of the program would help nobody.
+/// ncc stops reading after this number of errors.
 const ENOUGH_ERRORS: usize = 200;
 
 /// Translates a program.
 ///
 /// # Errors
-/// Reading the source or writing the temporary file of the output failed. What is wrong with the
-/// program itself is in the outcome.
+/// Reading the source or writing the temporary file of the output failed. Errors in the program itself are in
+/// the outcome.
 pub fn translate(job: &Job, source: &mut dyn Readable) -> io::Result<Outcome> {
     Ok(translate_keeping(job, source)?.0)
 }
 
-/// Translates a program, and keeps what is asked of where the output comes from; the record only where a
-/// map is asked for and the output was verified.
+/// Translates a program and records where the output comes from, as `asked`. The record is `Some` only if the caller
+/// asked for a map and ncc released the output.
 ///
 /// # Errors
-/// As of [`translate`]; an output of which the map is asked and that is longer than 4 GiB.
+/// The errors of [`translate`], and a mapped output longer than 4 GiB.
 pub fn translate_recording(
     job: &Job,
     asked: Asked,
@@ -72,13 +72,13 @@ pub fn translate_recording(
     Ok((outcome, record))
 }
 
-/// Translates a program; tells also which assumed facts the output does not state itself.
+/// Translates a program. Also returns the assumed modes that the output does not state itself.
 pub fn translate_keeping(job: &Job, source: &mut dyn Readable) -> io::Result<(Outcome, Modes)> {
     let (outcome, inherited, _) = run(job, Asked::default(), source)?;
     Ok((outcome, inherited))
 }
 
-/// An outcome, with the assumed facts that the output does not state itself, and the record that was asked for.
+/// Outcome, assumed modes that the output does not state itself, and the record if asked for.
 type Run = (Outcome, Modes, Option<Recorded>);
 
 fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<Run> {
@@ -92,19 +92,19 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Readable) -> io::Result<Run> {
     }
 }
 
-/// Which faster ways may be taken.
+/// Fast paths that an attempt may use.
 #[derive(Clone, Copy)]
 struct Ways {
-    /// A long program is verified on a second thread.
+    /// Verify a long program on a second thread.
     threads: bool,
-    /// Lines are read as tables.
+    /// Read lines as tables (`tabled`).
     tables: bool,
 }
 
-/// Translates a program; `None` if a faster way met something that it cannot report, so that it is to be done
-/// without any.
+/// Translates a program. `None` if a fast path met a problem that it cannot report: the caller then repeats the
+/// translation without fast paths.
 fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, ways: Ways) -> io::Result<Option<Run>> {
-    // A subprogram without its main program states no modes at its beginning, so that its end is to be known there.
+    // A standalone subprogram states no modes at its start. So ncc must know before reading that it ends by return.
     let returns = job.from.dialect.program.macro_b && ends_by_return(source)?;
     let reader = reader_for(job, true, source)?;
     let mut chunks = Chunks::hashed(source, job.piece);
@@ -136,7 +136,7 @@ fn attempt(job: &Job, asked: Asked, source: &mut dyn Readable, ways: Ways) -> io
         return Ok(None);
     }
     let (hash, bytes) = match (chunks.finish(), &job.called) {
-        // The source is what calls the others.
+        // With called files, hash and size are those of the calling file.
         (_, Some(called)) => (called.sha256, called.bytes),
         (own, None) => own,
     };

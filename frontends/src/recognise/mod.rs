@@ -1,11 +1,11 @@
-//! Whether a text is a milling program at all, or what else it looks like.
+//! Recognises texts that are not milling programs, for example lathe programs.
 //!
 //! `G21 G99 / T0303 / G92 X29.5 Z-20. F1.5 / X29.1` is a thread on a lathe. A milling control would read the
-//! same blocks as a G92 shift and rapid moves into the part. So every text is weighed before a dialect
-//! reads it: [`signs`] lists what gives a kind of program away, `blocks` cuts the text into words that all these
-//! languages share, `course` follows what only several blocks together show.
+//! same blocks as a G92 shift and rapid moves into the part. So ncc weighs every text before a dialect reads it.
+//! [`signs`] lists the signs of each kind of program. `blocks` splits the text into words that all these
+//! languages share. `course` finds signs that need several blocks.
 //!
-//! Not here: which milling dialect a text is written in, what its words mean, and what ncc reports.
+//! Not here: the milling dialect of a text, the meaning of its words, and the message.
 
 mod blocks;
 mod course;
@@ -19,53 +19,53 @@ use blocks::Block;
 use course::{Course, Line};
 use signs::{Kind, SIGNS, Shape, Sign, Sort, System};
 
-/// How much of a text is weighed, in bytes from its beginning.
+/// Bytes from the start of a text that ncc weighs: 64 KiB.
 pub const BEGINNING: usize = 1 << 16;
-/// Bytes that an editor may put before a text in UTF-8.
+/// UTF-8 byte order mark; some editors write it at the start of a file.
 const MARK: &[u8] = b"\xEF\xBB\xBF";
-/// A kind of program is named from this weight on.
+/// Lowest weight at which ncc names a kind of program.
 const ENOUGH: i32 = 3;
-/// From this weight on, nothing is left to ask.
+/// Lowest weight at which the kind is certain.
 const CERTAIN: i32 = 5;
-/// So many hints of different kinds stand for a second strong sign.
+/// Total weight of hints that replaces a second strong sign.
 const MANY_HINTS: i32 = 3;
-/// Hints do not count for more than this together, so that no number of them is a strong sign.
+/// Highest total weight of hints in a sum, so that hints alone never equal a strong sign.
 const MOST_HINTS: i32 = 1;
 
-/// The code of the message about a program that is not for a mill: `NC0120`.
+/// Code of the message about a program that is not for a mill: `NC0120`.
 pub const CODE: u16 = 120;
 
-/// A sign and the first place where the text shows it.
+/// A sign with its first span in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shown {
-    /// The sign.
+    /// Row of the table [`SIGNS`].
     pub sign: &'static Sign,
-    /// Bytes of the text.
+    /// Byte range in the text, from its start.
     pub place: Range<usize>,
 }
 
-/// A text that looks like something else than a milling program.
+/// The result for a text that looks like another kind of program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// What it looks like.
+    /// Most likely kind of program.
     pub kind: Kind,
-    /// The control that its signs point to, where they agree on one.
+    /// Control of the strong signs, if they agree on one.
     pub system: Option<System>,
-    /// Whether the signs leave no doubt. Without, a milling program might look so too.
+    /// If false, a milling program might look the same.
     pub certain: bool,
-    /// The sign that decides, and its first place.
+    /// The strongest sign.
     pub decisive: Shown,
-    /// The other signs, the strongest first.
+    /// The other signs of this kind, the strongest first.
     pub others: Vec<Shown>,
 }
 
-/// Weighs the beginning of a text; no more than [`BEGINNING`] bytes of it are looked at. `None` is a milling
-/// program, as far as the signs tell.
+/// Weighs the first [`BEGINNING`] bytes of a text. `None` if the signs show no other kind than a milling
+/// program.
 pub fn recognise(text: &[u8]) -> Option<Finding> {
     let cut = text.len() > BEGINNING;
     let mut text = &text[..text.len().min(BEGINNING)];
     if cut {
-        // The last line is cut.
+        // The last line is incomplete.
         text = &text[..text.iter().rposition(|b| *b == b'\n').unwrap_or(text.len())];
     }
     let skipped = if text.starts_with(MARK) { MARK.len() } else { 0 };
@@ -73,7 +73,7 @@ pub fn recognise(text: &[u8]) -> Option<Finding> {
     weighed.judge()
 }
 
-/// All that was found in a text.
+/// The signs of a text, the strongest first, and the facts of its blocks together.
 struct Weighed {
     shown: Vec<Shown>,
     course: Course,
@@ -104,14 +104,14 @@ impl Weighed {
             .zip(shown)
             .filter_map(|(sign, place)| Some(Shown { sign, place: place.or_else(|| course.place(sign))? }))
             .collect();
-        // Of equal weights in the order of the table, which names cycles first.
+        // A stable sort: equal weights keep the order of the table, which lists cycles first.
         all.sort_by_key(|shown| std::cmp::Reverse(shown.sign.weight));
         Weighed { shown: all, course }
     }
 
     fn judge(self) -> Option<Finding> {
         let weights = Kind::ALL.map(|kind| (kind, self.weight(kind)));
-        // Of equal weights, the first of the list.
+        // For equal weights, the first kind of the list wins.
         let (kind, weight) = weights.into_iter().rev().max_by_key(|(_, weight)| *weight)?;
         if weight < ENOUGH {
             return None;
@@ -122,7 +122,7 @@ impl Weighed {
         Some(Finding { kind, system, certain: weight >= CERTAIN, decisive, others: own.collect() })
     }
 
-    /// What speaks for a kind, less what speaks for a mill; 0 where no sign is strong enough to speak at all.
+    /// Weight of a kind, minus the weight of the signs for a mill. 0 if no sign of the kind is strong enough.
     fn weight(&self, kind: Kind) -> i32 {
         let own = || self.shown.iter().filter(move |shown| shown.sign.kind == kind).map(|shown| shown.sign);
         let strong = own().filter(|sign| sign.weight >= 2);
@@ -135,7 +135,7 @@ impl Weighed {
         strong + hints.min(MOST_HINTS) - self.course.milling(kind)
     }
 
-    /// The control that the strong signs of a kind agree on.
+    /// The control on which the strong signs of a kind agree; `None` if several remain.
     fn system(&self, kind: Kind) -> Option<System> {
         let mut own = self.shown.iter().filter(|shown| shown.sign.kind == kind && shown.sign.weight >= 2);
         let left: Vec<System> = own.try_fold(System::ALL.to_vec(), |mut left, shown| {
@@ -149,18 +149,18 @@ impl Weighed {
     }
 }
 
-/// The signs that a block may show, by what is cheap to see of it: most blocks show none.
+/// A cheap filter of the signs that a block may show. Most blocks show none.
 #[derive(Default)]
 struct Possible {
-    /// By the letters of a block, those of words.
+    /// Set of letters of a block to the indices of the signs whose needed and excluded letters fit it.
     by_letters: HashMap<u32, Vec<usize>>,
 }
 
 impl Possible {
-    /// Looks at the signs that a block may show, by their place in the table.
+    /// Calls `look` for each sign that the block may show, with its index in the table.
     fn of(&mut self, block: &Block, sentence: bool, mut look: impl FnMut(usize)) {
         let shapes = signs::shapes();
-        // The words of a sentence are no codes, but it may name a control.
+        // A sentence has no codes, but it may name a control.
         if !sentence {
             let fits = |sign: &usize| shapes[*sign].fits(block.letters);
             let signs = self.by_letters.entry(block.letters);
@@ -169,7 +169,7 @@ impl Possible {
                 .iter()
                 .for_each(|sign| look(*sign));
         }
-        // No other sign is without two letters side by side.
+        // All other signs need two adjacent letters.
         if block.text.windows(2).any(|pair| pair.iter().all(u8::is_ascii_uppercase)) {
             let others = (0..shapes.len()).filter(|sign| !matches!(shapes[*sign], Shape::Block { .. }));
             others.for_each(look);
@@ -178,7 +178,7 @@ impl Possible {
 }
 
 impl Sign {
-    /// Whether several blocks together show it.
+    /// The sort of a sign that needs several blocks; `None` for a sign of one block.
     fn of_course(&self) -> Option<Sort> {
         match self.shape {
             signs::Pattern::Course(sort) => Some(sort),

@@ -1,11 +1,10 @@
-//! Maps from one machine to another: which number a tool, an entry of the length table, a work offset
-//! or a program has there.
+//! Maps of numbers from one machine to another: tools, length table entries, work offsets, programs.
 //!
-//! A map is plain data: whoever makes it knows the machines, whoever uses it does not. Two forms
-//! serve two sides that must not rest on each other: [`Maps`] goes from the source's numbers to the
-//! target's, and a pass writes by it; [`Renaming`] maps back, and verification judges by it.
+//! With tool 4 mapped to 10, `T4 M6` becomes `T10 M6`. A map is plain data without knowledge of the machines.
+//! [`Maps`] goes from source numbers to target numbers; a pass writes by it. [`Renaming`] goes back;
+//! verification judges by it. The two are separate, so that verification does not rely on the pass.
 //!
-//! Not here: where the numbers come from, and what is done about one that has none.
+//! Not here: the origin of the numbers (profiles), and the report of a number without a row.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,37 +12,35 @@ use ncc_ir::canon::Modes;
 use ncc_ir::program::Text;
 use ncc_ir::program::numbered::Numbered;
 
-/// The target's numbers of what the source calls by its own. A map that is `None` is not active:
-/// numbers stay as they are. In one that is, a number that has no row is not known to the target.
+/// Source numbers to target numbers. A map that is `None` keeps every number. In a map that is `Some`, the target
+/// lacks each number without a row.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Maps {
-    /// Tools.
+    /// Tool numbers.
     pub tools: Option<BTreeMap<u32, u32>>,
-    /// Tools that the source calls by name, where the target calls them by number.
+    /// Tool names of the source to tool numbers of the target.
     pub tool_names: BTreeMap<Text, u32>,
-    /// Entries of the length table; 0, which is none, is always 0 and has no row.
+    /// Entries of the length table. Entry 0 means no offset; it stays 0 and has no row.
     pub entries: Option<BTreeMap<u32, u32>>,
-    /// Work offsets; 1 is the first.
+    /// Work offsets; 1 is the first (G54).
     pub offsets: Option<BTreeMap<u16, u16>>,
-    /// Programs, by number or by name in capitals.
+    /// Programs, by number or by name. Keys are in capitals.
     pub programs: BTreeMap<Text, Text>,
-    /// Whether a program whose number has no row is not known to the target; else it keeps it.
+    /// If true, the target lacks a program number without a row; else that number stays.
     pub programs_in_force: bool,
-    /// Numbers of programs that the target's machine has by name already.
+    /// Program numbers that the target's machine already uses for named programs.
     pub program_numbers: BTreeSet<u32>,
-    /// Names that the source's machine has for numbers without a row: the target's has none of that
-    /// name.
+    /// Names in the source's profile of numbers without a row. The target's profile lacks these names.
     pub unmatched: BTreeMap<(Numbered, u32), Text>,
-    /// The entry of the target's length table that has a tool's length, by the target's number of the
-    /// tool, where it is not that number.
+    /// Target tool number to the target's length table entry, for tools whose entry has another number than the
+    /// tool.
     pub edge_entries: BTreeMap<u32, u32>,
-    /// The entry of the target's length table that another edge than the first of a tool has, by the target's number of
-    /// the tool and the edge.
+    /// Target tool number and edge to the target's length table entry, for edges other than the first.
     pub further_edges: BTreeMap<(u32, u32), u32>,
 }
 
 impl Maps {
-    /// Whether nothing is mapped.
+    /// Whether every number stays as it is.
     pub fn is_empty(&self) -> bool {
         self.tools.is_none()
             && self.tool_names.is_empty()
@@ -53,27 +50,27 @@ impl Maps {
             && !self.programs_in_force
     }
 
-    /// The target's number of a tool; `None` if it has none.
+    /// The target's tool number; `None` if the target lacks the tool.
     pub fn tool(&self, number: u32) -> Option<u32> {
         self.tools.as_ref().map_or(Some(number), |map| map.get(&number).copied())
     }
 
-    /// The target's entry for an entry of the length table.
+    /// The target's length table entry; 0 stays 0. `None` if the target lacks it.
     pub fn entry(&self, number: u32) -> Option<u32> {
         self.entries.as_ref().filter(|_| number > 0).map_or(Some(number), |map| map.get(&number).copied())
     }
 
-    /// The target's number of a work offset.
+    /// The target's work offset number; `None` if the target lacks it.
     pub fn offset(&self, number: u16) -> Option<u16> {
         self.offsets.as_ref().map_or(Some(number), |map| map.get(&number).copied())
     }
 
-    /// What the target calls a program by, if that is something else.
+    /// The target's name of a program; `None` if it has no row. Case does not matter.
     pub fn program(&self, name: &str) -> Option<&Text> {
         self.programs.get(name.to_ascii_uppercase().as_str())
     }
 
-    /// Facts in the target's numbers; one that it has none for stays.
+    /// Modes with the target's numbers. A number without a row stays.
     pub fn modes(&self, source: &Modes) -> Modes {
         Modes {
             work_offset: source.work_offset.map(|n| self.offset(n).unwrap_or(n)),
@@ -83,25 +80,24 @@ impl Maps {
     }
 }
 
-/// The way back: what the source calls what the target's text says. `None` is the same number; in a
-/// map that is there, what has no row is something that the source has not.
+/// Target numbers back to source numbers. A map that is `None` keeps every number. In a map that is `Some`, the source
+/// lacks each number without a row.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Renaming {
-    /// Tools.
+    /// Tool numbers.
     pub tools: Option<BTreeMap<u32, u32>>,
-    /// Names by which the source may call tools, by the target's numbers.
+    /// Target tool numbers to tool names of the source.
     pub tool_names: BTreeMap<u32, Text>,
     /// Entries of the length table, without 0.
     pub entries: Option<BTreeMap<u32, u32>>,
-    /// Work offsets.
+    /// Work offsets; 1 is the first (G54).
     pub offsets: Option<BTreeMap<u16, u16>>,
-    /// The entry of the target's length table that edge 1 of a tool has, where it is not the tool's
-    /// number; both in the target's numbers.
+    /// Target tool number to the target's length table entry of edge 1, for tools whose entry has another number.
     pub edge_entries: BTreeMap<u32, u32>,
 }
 
 impl Renaming {
-    /// Whether every number is its own; a tool that the source calls by name has none.
+    /// Whether every number stays as it is. Tool names do not count.
     pub fn is_empty(&self) -> bool {
         self.tools.is_none() && self.entries.is_none() && self.offsets.is_none()
     }

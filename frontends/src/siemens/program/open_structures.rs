@@ -1,6 +1,7 @@
-//! Structures that are open, and what the text says of jumps.
+//! Open branches and loops of the text, and its jumps and labels, while the front-end parses a unit.
 //!
-//! Not here: what their blocks do (`flow`).
+//! After `WHILE R1<5`, one structure is open until `ENDWHILE`.
+//! Not here: parsing their heads and bodies (`flow`).
 
 use std::collections::HashSet;
 
@@ -12,41 +13,42 @@ use super::labels::{InPlace, Label, Pending};
 use crate::common::known::Know;
 use crate::siemens::siemens_state::{Motion, SiemensState};
 
-/// What the text says of jumps, and the structures that are open.
+/// Jumps and labels of the unit so far, and its open structures.
 #[derive(Debug, Default)]
 pub(in crate::siemens) struct Flow {
     /// Labels and block numbers that jumps name.
     pub(in crate::siemens) targets: HashSet<Text>,
-    /// Whether there are block numbers among them.
+    /// Whether a jump names a block number.
     pub(in crate::siemens) numbered: bool,
     pub(in crate::siemens) labels: Vec<Label>,
     pub(in crate::siemens) jumps: Vec<Pending>,
     pub(in crate::siemens) open: Vec<OpenStructure>,
-    /// The first feed within them that relied on what feeds count in where a loop begins.
+    /// The first feed within the open structures that relied on the feed unit at the start of a loop.
     pub(in crate::siemens) relied: Option<Span>,
-    /// Whether what was read last cannot be left towards what follows.
+    /// Whether control never passes from the last statement to the next one.
     pub(in crate::siemens) over: bool,
-    /// Whether an end of the program has been read.
+    /// Whether the text so far has a program end.
     pub(in crate::siemens) has_end: bool,
 }
 
-/// A structure that has not ended.
+/// A branch or a loop before its closing word.
 #[derive(Debug)]
 pub(in crate::siemens) struct OpenStructure {
     pub(in crate::siemens) what: StructureKind,
-    /// Where its body begins in the statements.
+    /// Index of the first statement of its body.
     pub(in crate::siemens) at: usize,
     pub(in crate::siemens) head: Span,
     pub(in crate::siemens) number: Option<u32>,
     pub(in crate::siemens) comment: Option<Box<Text>>,
     pub(in crate::siemens) found: InPlace,
-    /// Whether feeds count in the active units, where it begins: so they do in every iteration, if they do at its end.
+    /// Whether feeds use the active length unit at its start. Every iteration agrees if its end has the same value.
     pub(in crate::siemens) scaled: Know<bool>,
 }
 
 #[derive(Debug)]
 pub(in crate::siemens) enum StructureKind {
-    /// With its other branch, what was read before that, and what is active where the branches begin or ended.
+    /// `then` has the statements before `ELSE`, once `ELSE` is read. `other` has the modes at the start, then those
+    /// at the end of the first branch.
     If {
         condition: Expr,
         then: Option<Vec<Stmt>>,
@@ -62,7 +64,7 @@ pub(in crate::siemens) enum StructureKind {
     Until,
 }
 
-/// Which structure a word closes.
+/// Kind of structure that a closing word ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::siemens) enum Closes {
     If,

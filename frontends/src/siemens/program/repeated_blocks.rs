@@ -1,10 +1,10 @@
-//! Blocks that run more than once: what repeated blocks and subprograms find active.
+//! Blocks that run more than once: modes at the start of repeated blocks and of subprograms.
 //!
-//! Statements say what is known of the modes where they stand. A block that is repeated, or a
-//! subprogram that is called from several places, must find there what was found the first time,
-//! or it is refused. Subprograms leave the cycle of `MCALL` as they found it.
+//! The front-end parses a block once, with the modes that are active at its first run. A later run must find the
+//! same modes, or ncc refuses the repetition. In `G1 F100`, `A: X10`, `G0 X0`, `REPEAT A`, the second X10 would be a
+//! rapid move. A subprogram leaves the modal call of `MCALL` unchanged.
 //!
-//! Not here: the statements themselves.
+//! Not here: the repeated statements, and the messages (`calls`).
 
 use std::collections::HashMap;
 
@@ -14,7 +14,7 @@ use ncc_ir::source::Span;
 use crate::common::known::Know;
 use crate::siemens::siemens_state::{ModalCall, SiemensState};
 
-// Facts that a statement keeps as known.
+// Bits of the modes that a statement may set or use.
 pub(in crate::siemens) const UNITS: u8 = 1;
 pub(in crate::siemens) const SCALED: u8 = 2;
 pub(in crate::siemens) const DISTANCE: u8 = 4;
@@ -22,31 +22,31 @@ pub(in crate::siemens) const PLANE: u8 = 8;
 pub(in crate::siemens) const MOTION: u8 = 16;
 pub(in crate::siemens) const CYCLE: u8 = 32;
 
-/// A label.
+/// A label with the modes at its block.
 #[derive(Clone, Debug)]
 pub(in crate::siemens) struct Label {
     name: Text,
-    /// Whether it is an end that no label is named for.
+    /// Whether it is `ENDLABEL`, the common end of a repetition.
     end: bool,
-    /// What was active before its block.
+    /// Modes before its block.
     before: SiemensState,
-    /// What was active after its block.
+    /// Modes after its block; `None` until the block ends.
     after: Option<SiemensState>,
-    /// Facts that its block or a later one has said.
+    /// Bits of modes that its block or a later one has set.
     said: u8,
-    /// Facts that its block or a later one relied on before any had said them.
+    /// Bits of modes that its block or a later one used before any of them set the mode.
     used: u8,
 }
 
-/// Whether a cycle is active where a subprogram is called.
+/// Modal call that is active at the calls of a subprogram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::siemens) enum Under {
     Nothing,
     Cycle {
-        /// Whether it may have a feed of its own.
+        /// Whether the cycle may have its own feed.
         own_feed: bool,
     },
-    /// Now a cycle, now none.
+    /// A cycle at some calls, no cycle at others.
     Either {
         own_feed: bool,
     },
@@ -60,7 +60,7 @@ impl Under {
         }
     }
 
-    /// Whether what was read as if it were called so can be called otherwise.
+    /// Whether a subprogram that was parsed for `self` can also be called under `other`.
     fn allows(self, other: Under) -> bool {
         let fed = self.own_feed() || !other.own_feed();
         match self {
@@ -71,25 +71,25 @@ impl Under {
     }
 }
 
-/// A subprogram, as far as its callers and itself are known.
+/// A subprogram: its calls so far, and whether its text has been parsed.
 #[derive(Clone, Debug)]
 struct Sub {
     under: Under,
-    /// The first call: the name as it is written there, and the place.
+    /// First call: the name as written, and its span.
     called: Option<(Text, Span)>,
-    /// Whether its text has been met.
+    /// Whether its text has begun in the source.
     met: bool,
 }
 
-/// What is known of labels and subprograms.
+/// Labels of the current unit, and all subprograms of the source.
 #[derive(Debug, Default)]
 pub(in crate::siemens) struct RepeatedBlocks {
-    /// Labels of the program that is being read.
+    /// Labels of the current unit, in the order of the text.
     labels: Vec<Label>,
     subs: HashMap<Text, Sub>,
 }
 
-/// Facts that differ.
+/// Bits of the modes that differ between two states.
 fn differing(a: &SiemensState, b: &SiemensState) -> u8 {
     let bit = |differs: bool, bit: u8| if differs { bit } else { 0 };
     bit(changed(a.modes.units, b.modes.units), UNITS)
@@ -100,36 +100,36 @@ fn differing(a: &SiemensState, b: &SiemensState) -> u8 {
         | bit(a.cycle != b.cycle, CYCLE)
 }
 
-/// Whether a fact is another one. What was assumed since held before as well.
+/// Whether a mode has another value. A mode that ncc assumed in between counts as unchanged.
 fn changed<T: Copy + PartialEq>(before: Know<T>, now: Know<T>) -> bool {
     let taken = matches!((before, now), (Know::Unsaid, Know::Taken(_)));
     before.value() != now.value() && !taken
 }
 
-/// Why blocks cannot be repeated.
+/// Reason why blocks cannot be repeated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::siemens) enum NotRepeatable {
-    /// No such label before.
+    /// A label is missing before the repetition.
     Unknown,
-    /// They would find something else active.
+    /// Another mode is active at the repetition.
     Differs,
 }
 
 impl RepeatedBlocks {
-    /// Whether nothing comes of relying on these facts, or of saying one of them: no block can be repeated, or it is
-    /// known of every label already that they are stated after it, or relied on.
+    /// Whether noting these bits again would change nothing: either no label exists, or every label already has them
+    /// as set or used.
     pub(in crate::siemens) fn knows(&self, facts: u8) -> bool {
-        // What the last one knows, all before it do.
+        // All earlier labels have the bits of the last one.
         self.labels.last().is_none_or(|label| (label.used | label.said) & facts == facts)
     }
 
-    /// A block with a label begins.
+    /// Notes the start of a block with a label; `before` has the modes before it.
     pub(in crate::siemens) fn label(&mut self, name: Text, before: &SiemensState) {
         let label = Label { name, end: false, before: before.clone(), after: None, said: 0, used: 0 };
         self.labels.push(label);
     }
 
-    /// A name for an end that has none of its own.
+    /// A free name for an `ENDLABEL`: `ENDLABEL_1`, `ENDLABEL_2`, …
     pub(in crate::siemens) fn end_name(&self) -> Text {
         let mut numbers = 1u32..;
         let free = numbers.find_map(|n| {
@@ -139,32 +139,33 @@ impl RepeatedBlocks {
         free.unwrap_or_default().into()
     }
 
-    /// The last label is an end that no label is named for.
+    /// Marks the last label as `ENDLABEL`.
     pub(in crate::siemens) fn is_end(&mut self) {
         if let Some(label) = self.labels.last_mut() {
             label.end = true;
         }
     }
 
-    /// The end that stands first after the last label of this name.
+    /// Name of the first `ENDLABEL` after the last label `from`; `None` if none follows.
     pub(in crate::siemens) fn end_behind(&self, from: &str) -> Option<Text> {
         let first = self.labels.iter().rposition(|l| &*l.name == from)?;
         self.labels[first..].iter().find(|l| l.end).map(|l| l.name.clone())
     }
 
-    /// Whether a label of this name has been met.
+    /// Whether the unit has such a label so far.
     pub(in crate::siemens) fn has_label(&self, name: &str) -> bool {
         self.labels.iter().any(|l| &*l.name == name)
     }
 
-    /// The last label's block is over.
+    /// Notes the modes after the block of the last label.
     pub(in crate::siemens) fn label_over(&mut self, after: &SiemensState) {
         if let Some(label) = self.labels.last_mut() {
             label.after = Some(after.clone());
         }
     }
 
-    /// A fact is relied on. What an older label knows of it is known of every one before.
+    /// Notes the use of a mode for every label. An older label that has the bit ends the search: all before it
+    /// have it too.
     pub(in crate::siemens) fn use_fact(&mut self, fact: u8) {
         for label in self.labels.iter_mut().rev() {
             if (label.used | label.said) & fact != 0 {
@@ -174,12 +175,12 @@ impl RepeatedBlocks {
         }
     }
 
-    /// Control divides here, or comes together: every fact may be relied on.
+    /// At a branch or a merge, every mode counts as used.
     pub(in crate::siemens) fn use_all(&mut self) {
         self.labels.iter_mut().for_each(|label| label.used = u8::MAX);
     }
 
-    /// A fact is stated.
+    /// Notes for every label that a block sets this mode.
     pub(in crate::siemens) fn say(&mut self, fact: u8) {
         for label in self.labels.iter_mut().rev() {
             if label.said & fact != 0 {
@@ -189,8 +190,11 @@ impl RepeatedBlocks {
         }
     }
 
-    /// Blocks from a label to here, or to another label's block, are to run again, once or several times: finds whether
-    /// they mean the same then, and what is known afterwards.
+    /// Checks a repetition of the blocks from label `from` to the current block, or to the block of label `to`.
+    /// `several` is true for more than one repetition. Sets `now` to the modes after the repetition.
+    ///
+    /// # Errors
+    /// A label is missing, or a mode that the blocks use has another value at the repetition.
     pub(in crate::siemens) fn repeat(
         &self,
         from: &str,
@@ -207,7 +211,7 @@ impl RepeatedBlocks {
         if let Some(to) = to {
             let last = place(to).filter(|last| *last >= first).ok_or(NotRepeatable::Unknown)?;
             let after = self.labels[last].after.as_ref().ok_or(NotRepeatable::Unknown)?;
-            // From the second time on they find what they leave.
+            // From the second repetition on, the blocks start with the modes of their own end.
             if several && differing(&label.before, after) & label.used != 0 {
                 return Err(NotRepeatable::Differs);
             }
@@ -218,8 +222,8 @@ impl RepeatedBlocks {
         Ok(())
     }
 
-    /// A subprogram is called; `false` if it cannot be, because it was read as if it were called
-    /// under another cycle.
+    /// Notes a call of a subprogram. `false` if its text was already parsed for another modal call and does not
+    /// allow this one.
     pub(in crate::siemens) fn call(&mut self, name: &str, written: &str, at: Span, under: Under) -> bool {
         match self.subs.get_mut(name) {
             None => {
@@ -240,12 +244,12 @@ impl RepeatedBlocks {
         }
     }
 
-    /// Whether the text of a subprogram has been met.
+    /// Whether the text of a subprogram has begun in the source.
     pub(in crate::siemens) fn has_met(&self, name: &str) -> bool {
         self.subs.get(name).is_some_and(|sub| sub.met)
     }
 
-    /// Subprograms that are called and have not been met, each where it is called first.
+    /// Called subprograms without a text, each with its first call, in the order of the text.
     pub(in crate::siemens) fn unknown(&self) -> Vec<(Text, Span)> {
         let missing = self.subs.values().filter(|sub| !sub.met);
         let mut missing: Vec<_> = missing.filter_map(|sub| sub.called.clone()).collect();
@@ -253,8 +257,8 @@ impl RepeatedBlocks {
         missing
     }
 
-    /// The text of a subprogram begins; gives what it finds active, or nothing if it has been met
-    /// before.
+    /// Starts the text of a subprogram. Returns the modal call that is active at its start; `None` for a second
+    /// text of the same name.
     pub(in crate::siemens) fn enter(&mut self, name: &str) -> Option<ModalCall> {
         self.labels.clear();
         let sub =

@@ -1,13 +1,12 @@
 //! Lowering of variables: their definitions, assignments, and words whose value is computed.
 //!
-//! A name is a variable of the program that defines it. R parameters are the control's, seen by all programs. What a
-//! definition sets it sets each time the program runs. Words of a block are read when its assignments are made or
-//! not: a word that reads what its own block sets is refused.
+//! A named variable belongs to the program that defines it. R parameters belong to the control; all programs see them.
+//! A definition sets its initial value each time the program runs. ncc refuses a word that reads a variable which the
+//! same block sets, as in `R1=5 X=R1`: a control may read the word before or after the assignment.
 //!
-//! Not here: what is known of texts (`texts`).
+//! Not here: text variables (`texts`).
 //!
-//! Refused: variables that the program does not define, those of definition files, characters, axes and frames
-//! as variables.
+//! Refused: variables without a definition, unless the user names them; characters, axes and frames as variables.
 
 mod definitions;
 
@@ -33,14 +32,14 @@ use crate::siemens::lower::Lower;
 use crate::siemens::siemens_state::ModalCall;
 use crate::siemens::text::tree::{Address, Expr as Tree, Place, Value};
 
-/// The last R parameter; how many a machine has is a matter of its data.
+/// Highest R parameter that ncc accepts. Machine data of the control may allow fewer.
 pub(in crate::siemens) const LAST_R: u32 = 999;
 
-/// A place in memory.
+/// The target of an assignment, or the source of a read.
 struct Kept {
     target: Target,
     kind: Kind,
-    /// The name by which it is known what it may be.
+    /// Name for the comparison of variables: `R5`, the defined name, or [`ANY_R`] for a computed R number.
     name: Box<str>,
 }
 
@@ -48,7 +47,7 @@ struct Kept {
 #[derive(Clone, Copy)]
 struct Several<'t> {
     values: &'t [Option<Tree>],
-    /// `REP`: the first one everywhere.
+    /// `REP`: the first value fills all elements.
     all: bool,
 }
 
@@ -57,7 +56,7 @@ pub(in crate::siemens) fn array(name: &str, sizes: &[u32]) -> Many {
 }
 
 impl Lower {
-    /// The value of a variable.
+    /// Reads a variable or a named constant; `None` if it is refused (reported).
     pub(in crate::siemens) fn read(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Typed> {
         if let Address::System(name) = place.address {
             let text = src.text(place.span).to_ascii_uppercase();
@@ -84,7 +83,7 @@ impl Lower {
         Some(Typed::new(node, kept.kind))
     }
 
-    /// Where a variable is kept; `None` if there is none (reported).
+    /// Finds the variable of a place in the text; `None` if it is refused (reported).
     fn kept(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Kept> {
         let span = place.span;
         if is_r(place) {
@@ -100,7 +99,7 @@ impl Lower {
             && place.index.is_empty()
             && elsewhere.clone().any(|row| row.name == name && !row.left_out)
         {
-            // One of a definition file: all programs see it. It is taken for REAL.
+            // The user names it as a variable of a definition file. It is common, and ncc assumes REAL.
             let target = Target::Var(Var::Common(name.as_str().into()));
             return Some(Kept { target, kind: Kind::Real, name: name.into() });
         }
@@ -128,7 +127,7 @@ impl Lower {
         Some(Kept { target, kind: variable.kind, name: name.into() })
     }
 
-    /// `R5`, `R[R1+2]`
+    /// Finds an R parameter: `R5`, `R[R1+2]`. Range 0 to [`LAST_R`].
     fn r(&mut self, place: &Place, src: Source, out: &mut Batch) -> Option<Kept> {
         let span = place.span;
         let number = match (place.extension, &place.index[..]) {
@@ -183,7 +182,7 @@ impl Lower {
         Some(at)
     }
 
-    /// Whether a place with `=` is a variable: an R parameter, or a name that is defined or that nothing else has.
+    /// Whether the left side of `=` is a variable: an R parameter, a defined name, or a name without another meaning.
     pub(in crate::siemens) fn is_variable(&self, place: &Place, src: Source) -> bool {
         match place.address {
             Address::Letter(letter) => letter == b'R',
@@ -195,7 +194,7 @@ impl Lower {
         }
     }
 
-    /// An assignment.
+    /// Lowers an assignment of one value, several values or a text.
     pub(in crate::siemens) fn assign(
         &mut self,
         place: &Place,
@@ -231,7 +230,7 @@ impl Lower {
         }
     }
 
-    /// Whether an assignment is left out, as the user states of a variable that no program defines; reported once.
+    /// Whether the user has ncc leave out assignments to this undefined variable. Reports it once for each name.
     fn is_left_out(&mut self, place: &Place, src: Source, out: &mut Batch) -> bool {
         let Address::Name(name) = place.address else { return false };
         let name = src.text(name).to_ascii_uppercase();
@@ -257,8 +256,8 @@ impl Lower {
         self.push(span, Op::Assign(kept.target, value), out);
     }
 
-    /// Whether a variable is none of those from which is computed what `MCALL` has activated; else that is
-    /// reported: whether it counts with the new value is open.
+    /// Whether an assignment to this variable leaves the active `MCALL` unchanged. Reports it if an argument of `MCALL`
+    /// reads the variable: no source says whether the new value counts.
     pub(in crate::siemens) fn is_free_to_change(&mut self, name: &str, span: Span, out: &mut Batch) -> bool {
         let mut found = false;
         let mut one = |expr: &Expr| reads(expr, &mut |read| found |= may_be_one(read, name));
@@ -286,7 +285,7 @@ impl Lower {
         !found
     }
 
-    /// `FIELD[0]=SET(1,2,3)`, `FIELD[0]=REP(0)`: from an element on.
+    /// Lowers `FIELD[0]=SET(1,2,3)` and `FIELD[0]=REP(0)` to one assignment per element, from this element on.
     fn assign_several(&mut self, place: &Place, several: Several, span: Span, src: Source, out: &mut Batch) {
         let refuse = |lower: &mut Lower, what: ValueUnsupported, out: &mut Batch| {
             lower.not_supported(&src.text(span), what, span, out);
@@ -330,7 +329,7 @@ impl Lower {
         }
     }
 
-    /// The values of `SET` or `REP`, no more than there is room for.
+    /// Values of `SET` or `REP`, at most `room`. More values are refused (reported).
     fn values(
         &mut self,
         Several { values, all }: Several,
@@ -378,7 +377,7 @@ impl Lower {
         Some(vec![Some(value); count as usize])
     }
 
-    /// The value of a word or an argument: written, or to be computed.
+    /// The value of a word or an argument: a number, or the index of an expression in `exprs`.
     pub(in crate::siemens) fn given(&mut self, typed: Typed, span: Span) -> Given {
         let plain = Digits { mantissa: 0, scale: 0, point: false };
         match typed.expr.literal() {
@@ -387,7 +386,7 @@ impl Lower {
                 Given { digits, distance: None, way: None, computed: None, span }
             }
             None => {
-                // A line has no room for so many.
+                // A line is too short for more than `u16::MAX` expressions.
                 let place = u16::try_from(self.exprs.len()).unwrap_or(u16::MAX);
                 self.exprs.push(typed);
                 Given { digits: plain, distance: None, way: None, computed: Some(place), span }
@@ -395,7 +394,7 @@ impl Lower {
         }
     }
 
-    /// A word's value, written or computed; `None` if it is refused (reported).
+    /// The value of a word in the unit of `quantity`; `None` if it is refused (reported).
     pub(in crate::siemens) fn amount(
         &mut self,
         given: Given,
@@ -413,7 +412,7 @@ impl Lower {
                 self.units(given.span, out);
             }
             Quantity::Feed => {
-                // A computed feed counts what lengths count.
+                // A computed feed has the unit of lengths.
                 let feed = self.feed_unit(given.span, out)?;
                 let lengths = self.units(given.span, out);
                 if feed != Unit::Entry && (lengths == Fact::Entry || feed != unit_of(lengths)) {
@@ -432,7 +431,7 @@ impl Lower {
         Some(typed.expr)
     }
 
-    /// No word of a block may read what an assignment of the same block sets.
+    /// Refuses a block in which a word reads a variable that an assignment of the block sets.
     pub(in crate::siemens) fn no_word_reads_what_is_set(&mut self, src: Source, out: &mut Batch) {
         if self.now.set.is_empty() {
             return;
@@ -451,7 +450,7 @@ impl Lower {
     }
 }
 
-/// What a variable of a type holds, of those that are kept.
+/// Type of the variable in the program. Texts have no variable there; they give `Bool`.
 pub(in crate::siemens) fn stored(kind: Kind) -> Stored {
     match kind {
         Kind::Real => Stored::Real,
@@ -460,7 +459,7 @@ pub(in crate::siemens) fn stored(kind: Kind) -> Stored {
     }
 }
 
-/// The values of `SET(…)`, `(…)` or `REP(…)`, if they are that.
+/// The values of `SET(…)`, `(…)` or `REP(…)`; `None` for any other value.
 fn several_values<'t>(value: &'t Value, src: Source) -> Option<Several<'t>> {
     match value {
         Value::List(values) => Some(Several { values, all: false }),

@@ -1,7 +1,10 @@
-//! A code of motion in a block without a move (`G1 F200`): nothing says it but the next move. Where no fact is
-//! known after it (after a call, at a block that can be jumped to, at a loop), axis words alone do what is active
-//! when the program runs: before such a place a move to nowhere says it. An arc to nowhere has no centre;
-//! axis words after its code are refused.
+//! Motion codes in a block without a move: `G1 F200`, then `N20 X5`.
+//!
+//! Usually the next move states the motion code. At a call, a jump target or a loop, ncc loses the active motion
+//! code. Before such a block, this module adds a feed or rapid move without axis words, which keeps the code.
+//! An arc cannot have such a move, because it needs a centre. So ncc refuses bare axis words after a lost arc code.
+//!
+//! Not here: the moves themselves (`motion`).
 
 use ncc_dialects::Meaning;
 use ncc_ir::canon::Motion;
@@ -16,15 +19,15 @@ use crate::word::lower::Lower;
 use crate::word::word_state::{CycleState, WordState};
 
 impl Lower {
-    /// A code of motion; `before` is what was known until then.
+    /// Notes a motion code; `before` is the motion mode before its block.
     pub(in crate::word) fn said_motion(&mut self, motion: Motion, before: Know<Motion>, span: Span) {
-        // What is active already is stated.
+        // A code that is already active needs no move.
         if self.motion_without_move.code.is_some() || before.value() != Some(motion) {
             self.motion_without_move.code = Some((span, motion));
         }
     }
 
-    /// A move says it.
+    /// Clears the pending motion code if `op` is a move: the move states the code.
     pub(in crate::word) fn moved(&mut self, op: &Op) {
         let moves = matches!(
             op,
@@ -40,7 +43,7 @@ impl Lower {
         }
     }
 
-    /// All facts are lost, as control can come here from elsewhere, or goes there.
+    /// Loses all modes at a merge, a jump or a call.
     pub(in crate::word) fn lose_state(&mut self, out: &mut Batch) {
         self.leave_motion(None, out);
         self.carry_dwell(out);
@@ -48,13 +51,13 @@ impl Lower {
         self.state = if self.assume { self.state.at_merge() } else { WordState::lost() };
     }
 
-    /// The code for rigid tapping.
+    /// The dialect's code for rigid tapping; empty if it has none.
     pub(in crate::word) fn rigid_code(&self) -> Text {
         let row = self.settings.dialect.code_for(Meaning::RigidTapping);
         row.map_or("", |row| row.code.as_str()).into()
     }
 
-    /// Control goes elsewhere between the code for rigid tapping and its cycle: nobody knows there that it is rigid.
+    /// Refuses a call, a jump or a merge between the code for rigid tapping and its cycle.
     pub(in crate::word) fn tap_elsewhere(&mut self, out: &mut Batch) {
         if let Some(code) = self.state.rigid.filter(|_| !matches!(self.state.cycle, CycleState::Active(_))) {
             let fault = Fault::not_supported(self.rigid_code(), MoveUnsupported::RigidTappingFlow);
@@ -62,7 +65,8 @@ impl Lower {
         }
     }
 
-    /// The facts of motion are lost, or others than the next block may go on with them; `skip` is that of the code.
+    /// Keeps a pending motion code before ncc loses the modes: adds a move without axis words, or notes a lost arc
+    /// code. `skip` is the skip level of the code's block.
     pub(in crate::word) fn leave_motion(&mut self, skip: Option<u8>, out: &mut Batch) {
         let Some((span, motion)) = self.motion_without_move.code.take() else { return };
         let nowhere = Move { to: Point::default(), said: true };
@@ -76,24 +80,24 @@ impl Lower {
         };
         let stmts = self.target(out);
         match stmts.last_mut() {
-            // Its block said nothing else.
+            // The block of the code is otherwise empty: the move replaces its blank statement.
             Some(last) if last.op == Op::Blank && last.skip == skip => (last.op, last.span) = (op, span),
             _ => stmts.push(Stmt { span, number: None, skip, joined: false, comment: None, op }),
         }
     }
 
-    /// Whether no move has said the code of motion yet.
+    /// Whether a motion code waits for its first move.
     pub(in crate::word) fn has_motion_without_move(&self) -> bool {
         self.motion_without_move.code.is_some()
     }
 
-    /// Axis words that do what is active when the program runs.
+    /// Notes a block of axis words whose motion code is known only at run time.
     pub(in crate::word) fn bare_words(&mut self, block: Span, out: &mut Batch) {
         self.motion_without_move.bare.get_or_insert(block);
         self.tell_motion(out);
     }
 
-    /// Whether one that stands here adds nothing to what is reported of them.
+    /// Whether another block of bare axis words would add nothing to the report.
     pub(in crate::word) fn position_is_told(&self) -> bool {
         let motion = &self.motion_without_move;
         motion.bare.is_some() && (motion.lost.is_none() || motion.reported)

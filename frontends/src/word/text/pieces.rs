@@ -1,14 +1,16 @@
-//! The pieces of a line of words, by its tokens alone. Not here: what they mean.
+//! Splits a line of a word dialect into pieces, by its tokens alone.
+//!
+//! `N10 G1 X5 (face)` gives the addresses N, G and X, three numbers and a comment. Not here: their meaning.
 
 use ncc_dialects::Dialect;
 
 use super::token::{Signs, Token, Tokens};
 use crate::outline::{LineIs, Piece, PieceKind};
 
-/// So many letters without a number, one after the other, are no block in any dialect.
+/// No dialect has a block with more than this number of letters without a number in a row: such a line is plain text.
 const WORDS_OF_A_TEXT: usize = 5;
 
-/// Takes a line without its end apart.
+/// Splits a line into pieces, sorted by their start. [`LineIs::Unread`] if a block has an unknown token.
 pub(crate) fn pieces(dialect: &Dialect, line: &[u8], into: &mut Vec<Piece>) -> LineIs {
     let line = line.trim_ascii_end();
     let signs = Signs::new(dialect);
@@ -22,8 +24,7 @@ pub(crate) fn pieces(dialect: &Dialect, line: &[u8], into: &mut Vec<Piece>) -> L
             return LineIs::Unread;
         }
         let next = tokens.next_block();
-        // The sign that ends the block stands before where the next one begins, or before the comment
-        // that fills the line.
+        // The end sign of a block comes before the next block, or before a comment that fills the line.
         let last = into.last().map_or(from, |piece| piece.end.max(from));
         let end = next.unwrap_or(line.len());
         let sign = dialect.block.end.as_bytes().first();
@@ -50,7 +51,7 @@ pub(crate) fn pieces(dialect: &Dialect, line: &[u8], into: &mut Vec<Piece>) -> L
     }
 }
 
-/// The tokens of a block; `false` if it is none.
+/// Appends the tokens of one block to `into`; `false` if the text is not a block.
 fn block(tokens: &mut Tokens, dialect: &Dialect, into: &mut Vec<Piece>) -> bool {
     let mut depth = 0u32;
     let mut bare = 0;
@@ -93,7 +94,7 @@ fn block(tokens: &mut Tokens, dialect: &Dialect, into: &mut Vec<Piece>) -> bool 
         let kind = if kind == PieceKind::Address && depth > 0 { PieceKind::Letter } else { kind };
         if kind == PieceKind::Address {
             bare += 1;
-            // Words of a text are letters without numbers.
+            // Plain text is a row of letters without numbers.
             if bare > WORDS_OF_A_TEXT || (bare > 2 && !dialect.block.omitted_zero) {
                 return false;
             }

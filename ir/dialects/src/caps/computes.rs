@@ -1,4 +1,7 @@
-//! What a dialect computes with, as its rows have it.
+//! Capabilities for computed programs: derives [`Computes`] from a dialect's dictionary.
+//!
+//! Variables, operators, functions, loops and table entries come from the `[formula]` and `[[system]]` rows.
+//! Not here: the spelling of expressions, and rewriting for a target that lacks one of them (the passes).
 
 use std::sync::Arc;
 
@@ -12,17 +15,17 @@ use crate::meaning::Meaning;
 use crate::schema::{Dialect, Family};
 use crate::stored::VariableName;
 
-/// Digits of a value in a message where nothing else is stated (LinuxCNC 2.9, gcode/overview, comment parameters).
+/// Default number of digits of a value in a message (LinuxCNC 2.9, gcode/overview, comment parameters).
 const VALUE_DIGITS: u8 = 6;
 
-/// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90
-/// degrees) or `half` a turn to each side (the sine's -90 to 90).
+/// Option of a dictionary: the range of arc sine and arc tangent, in degrees. `turn` is 0 to 360 (arc sine: 270 to
+/// 90). `half` is half a turn to each side (arc sine: -90 to 90).
 pub const ANGLE_RANGE: &str = "angle_range";
 
-/// Value of [`ANGLE_RANGE`]: from 0 to 360 degrees.
+/// Value of [`ANGLE_RANGE`] for 0 to 360 degrees.
 pub(crate) const TURN: &str = "turn";
 
-/// What the dialect computes with.
+/// The dialect's capabilities for computed programs; `None` if it has no formulas or no operators.
 pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
     if !reads_formulas(dialect) || dialect.formula.operators.is_empty() {
         return None;
@@ -77,7 +80,7 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
             let lengths = dialect.numbers(crate::Quantity::Length);
             [lengths.increment, lengths.increment_inch.unwrap_or(lengths.increment)]
         },
-        // Where an option of the control is chosen, that says so ([`crate::Settings::caps`]).
+        // The default only: an option that the user chooses overrides it ([`crate::Settings::caps`]).
         turn: dialect.option.iter().any(|option| option.name == ANGLE_RANGE && option.default == TURN),
         blocks: rules.blocks,
         opposite: rules.not.is_some() || rules.not_behind.is_some(),
@@ -86,8 +89,8 @@ pub(super) fn computes(dialect: &Dialect) -> Option<Arc<Computes>> {
     }))
 }
 
-/// Values of the control's own that a program of the dialect can ask for. Again those of them that are table entries,
-/// each with the number by which a program has it: that of its parameter, or that of the entry within a name.
+/// System variables that a program of the dialect can read. The second list repeats those that are table entries.
+/// Each entry has the number that a program writes: the number of the variable, or the entry within a name.
 fn systems(dialect: &Dialect) -> (Vec<System>, Vec<(System, i64)>) {
     let (mut all, mut entries) = (Vec::new(), Vec::new());
     for (system, spelt) in dialect.system.iter().flat_map(|row| row.says()) {
@@ -107,8 +110,8 @@ fn systems(dialect: &Dialect) -> (Vec<System>, Vec<(System, i64)>) {
     (all, entries)
 }
 
-/// Whether a program of this dialect can compute. What a dictionary inherits of a language that it does not read counts
-/// for nothing.
+/// Whether a program of this dialect can compute. A word dialect may inherit formula rows for a language that it does
+/// not read. Those rows do not count.
 fn reads_formulas(dialect: &Dialect) -> bool {
     match dialect.family {
         Family::Word => dialect.program.macro_b || dialect.program.o_words,

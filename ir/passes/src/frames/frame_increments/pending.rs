@@ -1,4 +1,9 @@
-//! Axes that a change of frame waits for.
+//! Axes without a word since the last change of frame, and the distance modes that may be active.
+//!
+//! After `TRANS X100`, X and all other axes are pending. The next X word clears X.
+//! The pass rewrites or refuses an incremental word of a pending axis.
+//!
+//! Not here: the changes that make an axis pending, and the rewriting (`frame_increments`).
 
 use ncc_ir::canon::{AXES, Distance};
 use ncc_ir::expr::num::Nanos;
@@ -6,14 +11,15 @@ use ncc_ir::program::Coord;
 
 use super::LINEAR;
 
-/// Axes without a word since a change, and how words may be measured.
+/// Pending axes at one point of the program, and the distance modes that may be active there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pending {
-    /// Where the program had put each before it, if that is known.
+    /// Per axis: `None` is not pending. `Some` is pending, with the position before the change, in nanos, if the
+    /// pass knows it.
     pub(super) axes: [Option<Option<Nanos>>; AXES],
-    /// Whether words without a distance of their own may be absolute, and whether they may be incremental.
+    /// Distance modes that may be active: `[absolute, incremental]`.
     pub(super) measured: [bool; 2],
-    /// Axes of the planes in which rotations may be active.
+    /// Axes of the planes that a rotation may turn.
     pub(super) rotated: [bool; AXES],
 }
 
@@ -22,16 +28,17 @@ impl Pending {
         self.axes != [None; AXES]
     }
 
-    /// Which axes, and nothing of where they were.
+    /// The same pending axes without their positions before the change.
     pub(super) fn bits(&self) -> Pending {
         Pending { axes: self.axes.map(|axis| axis.map(|_| None)), ..self.clone() }
     }
 
-    /// Whatever may be.
+    /// The least that the pass can know: every axis pending, both distance modes possible.
     pub(super) const ANYTHING: Pending =
         Pending { axes: [Some(None); AXES], measured: [true; 2], rotated: LINEAR };
 
-    /// Notes how words without a distance of their own are measured; `None` is not known.
+    /// Notes the active distance mode; `None` allows both. With `maybe`, the modes noted before stay possible
+    /// (a block with block skip).
     pub(super) fn measure(&mut self, distance: Option<Distance>, maybe: bool) {
         let now = match distance {
             Some(Distance::Absolute) => [true, false],
@@ -42,7 +49,7 @@ impl Pending {
         self.measured = std::array::from_fn(|way| now[way] || maybe && before[way]);
     }
 
-    /// Whether a word is incremental on every path. Where that is not the same on all, it stays as it is, and execution
+    /// Whether a word is incremental on every path. If paths differ, the pass keeps the word, and verification
     /// judges it.
     pub(super) fn is_relative(&self, word: &Coord) -> bool {
         match word.distance.known() {
@@ -51,7 +58,7 @@ impl Pending {
         }
     }
 
-    /// Whether a word may be incremental.
+    /// Whether a word is incremental on at least one path.
     pub(super) fn may_be_relative(&self, word: &Coord) -> bool {
         match word.distance.known() {
             Some(distance) => distance == Distance::Incremental,

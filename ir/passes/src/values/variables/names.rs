@@ -1,23 +1,24 @@
-//! Which variable becomes which.
+//! Chooses the target's variable for each variable of the source.
 //!
-//! In this order, each rule for all variables in the order of the text before the next one:
+//! Common variables follow four rules. Each rule runs over all variables, in the order of the text, before the next:
 //!
-//! 1. What the target has under the same name stays.
-//! 2. A number stays after the target's prefix, where the target has it for such a lifetime: `#101` is `R101`.
-//! 3. Else it is the number and 100, where that is free: `R1` is `#101`.
-//! 4. Else, as a name that the target does not have, the first free number of those that all programs see.
+//! 1. A variable keeps its name if the target has the same name.
+//! 2. It keeps its number, if the target has that number with the same lifetime: `#101` becomes `R101`.
+//! 3. Its number moves by 100, if that number is free: `R1` becomes `#101`.
+//! 4. It gets the first free common number, or a common name if the target has them.
 //!
-//! Variables of a call stay what they are where the target has such numbers or names; a name becomes the first free
-//! number of the call's own, a number the name `V_` with it or with the letter of its argument. Where the target has
-//! neither for the main program, its variables are those that all programs see, by rules 2 to 4; so they are where
-//! what it calls has them too, and the target has no such calls. An array without one in the target is numbers one
-//! after the other.
+//! Local variables keep a number or a name that the target has. Else a name becomes the first free local number. A
+//! number becomes a name: `V_` with the number, or with the letter of its argument. Where the target lacks local
+//! variables for the main program, they become common variables by rules 2 to 4. The same holds if a called program
+//! shares them and the target lacks such calls. An array becomes a run of numbers if the target lacks arrays.
 //!
-//! Arguments are handed over as the target does: by letters, where a name of one letter, or that ends in an underline
-//! and a letter, has that one; one after the other, and put where the program has them at its head; or by names.
+//! Arguments follow the target. By letters: a name of one letter, or with an underline and a letter at its end, gets
+//! that letter. By position: the head of the program assigns them to its variables. By names: they keep their names.
 //!
-//! Refused: a variable for which there is no room; variables of a caller that is itself called with its own; variables
-//! by computed numbers of which not all stay, or move by 100.
+//! Refused: a variable without a free number; local variables of a caller that is itself called with its own locals;
+//! variables with computed numbers, unless all of them stay or all move by 100.
+//!
+//! Not here: the inventory of the variables (`inventory`), and rewriting the statements.
 
 mod reported;
 
@@ -32,24 +33,24 @@ use ncc_ir::program::{Declare, Op, Procedure, Program, Stmt, Type};
 use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
-/// By how much a number moves that the target does not have.
+/// Distance by which rule 3 moves a number.
 const FURTHER: u32 = 100;
 
-/// Variables, and what they are in the target.
+/// Source variable to target variable.
 pub(super) type Map = HashMap<Var, Var>;
 
-/// Where the variables of a procedure's calls are kept.
+/// Place in the target for the local variables of a procedure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Home {
-    /// With the call.
+    /// Local variables, one set for each call.
     Own,
-    /// Where all procedures see them.
+    /// Common variables, which all procedures see.
     Common,
-    /// There is no place for them.
+    /// No place: a program with such variables is refused.
     None,
 }
 
-/// Which variable becomes which.
+/// The chosen variables of a program, and the facts for the choice.
 pub(super) struct Plan<'c> {
     pub(super) from: &'c Computes,
     pub(super) computes: &'c Computes,
@@ -57,15 +58,15 @@ pub(super) struct Plan<'c> {
     /// Parameters of each procedure.
     pub(super) parameters: Vec<Vec<Var>>,
     homes: Vec<Home>,
-    /// By which procedure the variables of one are known, where several have the same.
+    /// Per procedure: index of the procedure that owns its locals. Procedures that share locals have the same owner.
     roots: Vec<usize>,
-    /// The map of variables that all procedures see, and of locals that become such.
+    /// Map of the common variables, and of locals that become common.
     pub(super) common: Map,
-    /// That of each procedure's own.
+    /// Map of the locals, by the index of their owner (`roots`).
     locals: Vec<Map>,
-    /// How far variables by computed numbers move.
+    /// Distance by which variables with computed numbers move: 0 or 100.
     pub(super) further: u32,
-    /// Numbers that are in use, of those that all programs see.
+    /// Common numbers of the target that are in use.
     taken: BTreeSet<u32>,
 }
 
@@ -98,7 +99,7 @@ impl<'c> Plan<'c> {
         }
     }
 
-    /// Whether a procedure has variables of its own.
+    /// Whether a procedure has parameters or local variables.
     pub(super) fn has_own(&self, at: usize) -> bool {
         let local = |seen: &Seen| matches!(seen.var, Var::Local(_));
         let by_number = |(row, _): &(Numbers, Span)| row.scope == Scope::Local;
@@ -123,7 +124,7 @@ impl<'c> Plan<'c> {
             }
         }
         self.go_further()?;
-        // What all procedures see, in the order of the text.
+        // Common variables, in the order of the text.
         let mut all: Vec<Seen> = Vec::new();
         let mut places: HashMap<Var, usize> = HashMap::new();
         for (at, inventory) in self.inventories.iter().enumerate() {
@@ -158,13 +159,13 @@ impl<'c> Plan<'c> {
         Ok(())
     }
 
-    /// Whether the main procedure has a caller, whose variables are not its own.
+    /// Whether the main procedure is a subprogram with an unknown caller, which has other variables.
     fn main_is_called(&self, program: &Program) -> bool {
         let alone = self.computes.handed == Handed::Places && returns_alone(program).is_some();
         alone || !program.procedures[0].parameters.is_empty()
     }
 
-    /// Whether a variable of the main procedure is one in the target too; else all programs see it.
+    /// Whether a local variable of the main procedure stays local in the target; else it becomes common.
     fn stays_with_main(&self, seen: &Seen, own_numbers: bool) -> bool {
         let number = number_of(&seen.var, self.from);
         match (number, &self.computes.named) {
@@ -175,7 +176,7 @@ impl<'c> Plan<'c> {
         }
     }
 
-    /// Finds whose variables each procedure has.
+    /// Finds the owner of each procedure's locals, and their place in the target.
     fn find_homes(&mut self, program: &Program) {
         let count = program.procedures.len();
         let by_name = program.by_name();
@@ -228,7 +229,7 @@ impl<'c> Plan<'c> {
         }
     }
 
-    /// How far variables by computed numbers move, so that all of them do alike.
+    /// Finds one distance for all variables with computed numbers (`further`). Refuses them if neither 0 nor 100 fits.
     fn go_further(&mut self) -> Result<(), Diagnostic> {
         let rows: Vec<&(Numbers, Span)> =
             self.inventories.iter().flat_map(|inventory| &inventory.numbered).collect();
@@ -237,7 +238,7 @@ impl<'c> Plan<'c> {
         let keeps_own = !self.computes.local.is_empty();
         for (at, inventory) in self.inventories.iter().enumerate() {
             let own = inventory.numbered.iter().any(|(row, _)| row.scope == Scope::Local);
-            // A call's own have names.
+            // The target has only names for locals: a computed number cannot select one.
             if own && !keeps_own && at > 0 && self.homes[at] == Home::Own {
                 return Err(refused());
             }
@@ -262,7 +263,7 @@ impl<'c> Plan<'c> {
             false if used.iter().all(|n| among(&self.computes.common, n + FURTHER)) => FURTHER,
             false => return Err(refused()),
         };
-        // Any of them may be in use.
+        // The program may use each number of the range. The range is cut at 10 000 numbers.
         for (row, _) in rows {
             if row.scope != Scope::Local || !keeps_own {
                 self.taken.extend((row.from..=row.to.min(row.from + 9999)).map(|n| n + self.further));
@@ -286,7 +287,7 @@ impl<'c> Plan<'c> {
         };
         let mut left: Vec<&Seen> = Vec::new();
         for seen in all {
-            // Arrays that the target does not have come last.
+            // Arrays get numbers last, if the target lacks them.
             let stays = match seen.elements {
                 Some(_) => self.computes.has(ComputeFeature::Array) && self.computes.says(&seen.var),
                 None => self.computes.says(&seen.var) && !matches!(seen.var, Var::Local(_)),
@@ -297,7 +298,7 @@ impl<'c> Plan<'c> {
                 left.push(seen);
             }
         }
-        // Where a number may be computed, each goes as far as the others.
+        // With computed numbers, all variables move by the same distance.
         let steps: &[u32] = if by_number { &[self.further] } else { &[0, FURTHER] };
         for step in steps {
             for seen in std::mem::take(&mut left) {
@@ -333,7 +334,7 @@ impl<'c> Plan<'c> {
                 }
             }
             let count = seen.elements.unwrap_or(1).max(1);
-            // What is kept when the control is off is kept there too, if anything is.
+            // A variable that survives power-off becomes one that does so in the target, if the target has any.
             let kept = matches!(seen.var, Var::Retentive(_)) && !self.computes.retentive.is_empty();
             let ranges = if kept { &self.computes.retentive } else { &self.computes.common };
             let run = run(ranges, &self.taken, count).ok_or_else(|| no_room(&name, seen.at))?;
@@ -345,9 +346,9 @@ impl<'c> Plan<'c> {
         Ok(())
     }
 
-    /// The variables of a procedure's calls.
+    /// Chooses the target's variables for the locals of the owner `at`.
     fn place_own(&mut self, at: usize) -> Result<(), Diagnostic> {
-        // With those of all that has the same ones.
+        // Includes the locals of all procedures with the same owner.
         let mut all: Vec<Seen> = Vec::new();
         let parameters = &self.parameters[at];
         let first = self.inventories[at].seen.first().map_or(Span::default(), |seen| seen.at);
@@ -426,7 +427,7 @@ impl<'c> Plan<'c> {
         Ok(())
     }
 
-    /// What stands at the head of a procedure: its parameters, and variables that have to be made known.
+    /// Renames the parameters of a procedure. Inserts at its head their comment or assignments, and declarations.
     pub(super) fn head(&self, at: usize, procedure: &mut Procedure) {
         let span = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);
         let locals = self.locals_of(at);
@@ -471,7 +472,7 @@ impl<'c> Plan<'c> {
     }
 }
 
-/// Shows every call of a body: what it calls, and whether that has variables of its own.
+/// Calls `seen` for every call of a body, with the called name and whether the call has its own locals.
 fn each_call(body: &[Stmt], seen: &mut dyn FnMut(&str, bool)) {
     for stmt in body {
         match &stmt.op {
@@ -482,7 +483,7 @@ fn each_call(body: &[Stmt], seen: &mut dyn FnMut(&str, bool)) {
     }
 }
 
-/// The number of the letter by which a parameter of that name is given its value.
+/// Local number of the argument letter for a parameter: its own letter if free, else the first free one but M, S, T.
 fn letter_for(name: &str, taken: &BTreeSet<u32>) -> Option<u32> {
     let mut last = name.bytes().rev();
     let own = match (last.next(), last.next()) {
@@ -494,7 +495,7 @@ fn letter_for(name: &str, taken: &BTreeSet<u32>) -> Option<u32> {
     own.into_iter().chain(plain).find(|n| !taken.contains(n))
 }
 
-/// The first of so many numbers, one after the other, of which none is in use.
+/// First number of a run of `count` free numbers; `None` if no range has such a run.
 fn run(ranges: &[[u32; 2]], taken: &BTreeSet<u32>, count: u32) -> Option<u32> {
     ranges.iter().find_map(|[from, to]| {
         let last = (to + 1).checked_sub(count)?;
@@ -502,7 +503,7 @@ fn run(ranges: &[[u32; 2]], taken: &BTreeSet<u32>, count: u32) -> Option<u32> {
     })
 }
 
-/// A name that is not in use, with a number after it if need be.
+/// A free name: `name` itself, else `name_2` to `name_999`.
 fn unlike(name: &str, made: impl Fn(&str) -> Option<Var>) -> Option<Var> {
     made(name).or_else(|| (2..1000).find_map(|more| made(&format!("{name}_{more}"))))
 }
