@@ -73,7 +73,7 @@ pub(crate) fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Pr
     }
     let text = files.get(name).and_then(|text| std::str::from_utf8(text).ok());
     let text = text.ok_or_else(|| RequestFault::NoMachine(name.to_owned()))?;
-    let profile = Profile::parse_named(name, text, &ncc_dialects::builtin);
+    let profile = Profile::parse(text, &ncc_dialects::builtin);
     let wrong = |wrong: Vec<_>| RequestFault::Profile(name.to_owned(), wrong.len()).into();
     profile.map(|profile| Some(Arc::new(profile))).map_err(wrong)
 }

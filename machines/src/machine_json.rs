@@ -5,12 +5,11 @@
 //! ```
 //!
 //! Times are seconds; `max_feed` is the rate of rapids along their straight line, mm/min. A stop of the spindle takes
-//! the time of a start (table 11). The file names no control: the dialect of a program is stated beside it. Not here:
-//! profiles, which state more.
+//! the time of a start (table 11). The file names no control, so it serves to time programs, and not to translate them. Not
+//! here: profiles, which state more.
 
 use std::ops::Range;
 
-use ncc_dialects::Dialect;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -20,7 +19,8 @@ use crate::shipped::find;
 use crate::takes::Takes;
 use crate::wrong::{ProfileError, Wrong};
 
-/// The shipped machine of the case study, whose control is the file's own where nobody asks for another.
+/// The shipped machine of the case study. Its control stands for the one that the file does not name
+/// ([`Profile::any_control`]).
 const STUDY: &str = "romi-discovery-4022";
 
 /// Source of its facts.
@@ -36,26 +36,11 @@ struct File {
 }
 
 impl Profile {
-    /// Reads a profile by the name of its file: `.json` is the case study's machine file, everything else a profile.
-    ///
-    /// # Errors
-    /// As of [`Profile::parse`].
-    pub fn parse_named(
-        name: &str,
-        text: &str,
-        dialect: &dyn Fn(&str) -> Option<&'static Dialect>,
-    ) -> Result<Profile, Vec<ProfileError>> {
-        match name.rsplit_once('.') {
-            Some((_, extension)) if extension.eq_ignore_ascii_case("json") => Profile::parse_json(text),
-            Some(_) | None => Profile::parse(text, dialect),
-        }
-    }
-
-    /// Reads the case study's machine file.
+    /// Reads the case study's machine file, for the times of a program.
     ///
     /// # Errors
     /// It is no JSON, has another field, or a value that its field does not take.
-    fn parse_json(text: &str) -> Result<Profile, Vec<ProfileError>> {
+    pub fn parse_machine_json(text: &str) -> Result<Profile, Vec<ProfileError>> {
         let file: File = serde_json::from_str(text).map_err(|error| vec![form(&error, text)])?;
         let Some(study) = find(STUDY) else { return Err(Vec::new()) };
         let mut profile = Profile { any_control: true, ..Profile::empty(study.dialect) };
@@ -103,7 +88,7 @@ mod tests {
         r#"{ "name": "romi", "tool_change_time": 7, "max_feed": 15000, "start_spindle_time": 2 }"#;
 
     fn read(text: &str) -> Result<Profile, Vec<ProfileError>> {
-        Profile::parse_named("machine.json", text, &ncc_dialects::builtin)
+        Profile::parse_machine_json(text)
     }
 
     #[test]

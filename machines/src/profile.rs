@@ -22,7 +22,7 @@ pub struct Profile {
     pub schema: Schema,
     /// The dictionary of its dialect, as it is without the profile.
     pub dialect: &'static Dialect,
-    /// Whether its file names no control, so that `dialect` says nothing of a program.
+    /// Whether its file names no control. Then `dialect` is not that of a program, and the profile serves for times only.
     pub any_control: bool,
 }
 

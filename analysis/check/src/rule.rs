@@ -67,7 +67,7 @@ rules! {
     BareNumber = 808, "bare-number", Warning, "A number without a decimal point counts increments, and others have points.";
     /// A mode that the next program finds active.
     LeftOn = 809, "left-on", Warning, "The program ends with an active mode that the next one may find.";
-    /// What runs, or a length that is active, when the program ends.
+    /// The spindle turns, coolant runs or a tool length offset is active at the program end.
     LeftRunning = 810, "left-running", Note, "The program ends with spindle, coolant or a length offset on.";
     /// A called program that is not in the text.
     CallNowhere = 811, "call-nowhere", Note, "A program that is called is not in the text.";

@@ -1,4 +1,4 @@
-//! What a program has stated so far, as far as rules need it: what is known, and what is not.
+//! The state of the control as the rules see it: each mode is as at the entry, stated, or lost.
 
 use ncc_ir::canon::AXES;
 use ncc_ir::source::Span;
@@ -8,10 +8,10 @@ use crate::finding::LeftOn;
 /// How well a fact is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Known {
-    /// The program has not said it: it is as at power-on, or as a caller left it.
+    /// The program has not stated it: it is as at power-on, or as a caller left it.
     #[default]
     Entry,
-    /// The program has said it.
+    /// The program has stated it.
     Said,
     /// A block that was not read may have changed it.
     Lost,

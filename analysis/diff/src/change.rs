@@ -127,7 +127,7 @@ pub struct Collector {
 type Tapes<'a, 't> = [&'a Tape<'t>; 2];
 
 impl Collector {
-    /// Begins a further run, under other block-skip switches: what has been reported is not told again.
+    /// Begins another run, under other block-skip switches. Each difference is reported once over all runs.
     pub fn again(&mut self, skip: u16) {
         self.skip = skip;
         self.by_change.clear();

@@ -73,7 +73,7 @@ const LITTLE: u8 = 16;
 const NEARLY: u8 = 32;
 
 impl Record {
-    /// Where all axes stand after it. Of an arc, rotary axes are in its style.
+    /// End point of all axes, 10⁻⁹ mm or degrees. The style of an arc holds its rotary axes.
     pub fn place(&self, style: &Style) -> [Nanos; AXES] {
         let [x, y, z] = self.end;
         let [a, b, c] = if self.what == What::Arc || !self.what.moves() { style.turned } else { self.more };

@@ -287,8 +287,8 @@ impl Both<'_, '_> {
         self.behind(run)
     }
 
-    /// What is before a stretch of pairs that go the same way is reported; the shift of the stretch holds
-    /// from there.
+    /// The fit that begins at a run of pairs with equal moves: the run's shift is active from its first pair on. `None` if
+    /// that pair is the first of both windows and differs under the shift: the streams would not go on.
     fn behind(&self, run: Run) -> Option<Fit> {
         let (a, b) = (self.tapes[0].window()[run.a], self.tapes[1].window()[run.b]);
         let by: [Nanos; AXES] =

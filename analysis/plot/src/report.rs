@@ -31,7 +31,7 @@ pub struct Page {
     pub record: Record,
     /// What is to be known of it, by name: the dialect, the machine, the model …
     pub facts: Vec<(String, String)>,
-    /// What is assumed.
+    /// Facts of machine and control that the times assume, a line each.
     pub assumed: Vec<String>,
     /// Its source.
     pub listing: Listing,

@@ -1,5 +1,4 @@
-//! The isometric picture of a part, one column of pixels after the other, from the front to the back. A nearer cell hides
-//! those behind it.
+//! The isometric picture of a part, column by column, from front to back. A nearer cell hides a farther one.
 
 use crate::map::HeightMap;
 use crate::pixels::{Picture, colour, light, rise, shaded};
@@ -110,7 +109,7 @@ impl<'m> Isometric<'m> {
         }
     }
 
-    /// Draws the material behind a column of pixels where there are hollows: each piece of it hides what is behind it, and no more.
+    /// Draws a column of pixels of a part with hollows: a piece of material hides only the pixels that it covers.
     fn material_behind(&mut self, column: usize) {
         let (map, level) = (self.map, self.level);
         let width = map.grid.cells[0];

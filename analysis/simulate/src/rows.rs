@@ -88,7 +88,7 @@ impl Rows {
     #[inline(always)]
     fn beyond(&self, row: usize, [left, right]: [f32x4; 2], done: f32) -> [f32x4; 2] {
         let [ux, uy] = self.along;
-        // Where x · ux + y · uy is that far.
+        // The X at which the distance along the line, x · ux + y · uy, is `done`.
         let x = || (-self.y(row) * uy + done) * (1.0 / ux);
         if ux > 1e-3 {
             [left.fast_max(x()), right]

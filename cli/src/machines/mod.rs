@@ -1,7 +1,7 @@
 //! Machine profiles on the command line: finding one, and telling what is wrong with it.
 //!
 //! ```text
-//! --to-machine mikron.toml    the profile, checked as a whole
+//! --machine-to mikron.toml    the profile, checked as a whole
 //! ```
 //!
 //! Not here: the form of a profile (`ncc_machines`).
@@ -66,8 +66,26 @@ pub fn run(args: &Machines, known: &DialectRegistry, err: &mut dyn WriteColor) -
 /// A profile by the name of a shipped one, or by its file. What is wrong with it is reported on `err`.
 ///
 /// # Errors
-/// There is none of that name, the file cannot be read, or the profile has faults.
+/// There is none of that name, the file cannot be read, the profile has faults, or it names no control.
 pub fn find(name: &str, known: &DialectRegistry, err: &mut dyn WriteColor) -> Result<Profile, Problem> {
+    match find_for_times(name, known, err)? {
+        profile if profile.any_control => Err(Problem::usage(
+            format!("{name} names no control: it serves to time programs"),
+            "use it with `ncc time`, `ncc plot` or `ncc simulate`; here, name a profile",
+        )),
+        profile => Ok(profile),
+    }
+}
+
+/// The same for the times of a program: `.json` is the case study's machine file.
+///
+/// # Errors
+/// As of [`find`], but that a machine file may name no control.
+pub(crate) fn find_for_times(
+    name: &str,
+    known: &DialectRegistry,
+    err: &mut dyn WriteColor,
+) -> Result<Profile, Problem> {
     if let Some(profile) = ncc_machines::find(name) {
         return Ok(profile.clone());
     }
@@ -86,7 +104,11 @@ pub fn find(name: &str, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
         message: format!("{name} is not UTF-8 text"),
         help: vec!["a profile is a TOML file".to_owned()],
     })?;
-    Profile::parse_named(name, &text, &|id| known.get(id)).map_err(|wrong| {
+    let profile = match path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")) {
+        true => Profile::parse_machine_json(&text),
+        false => Profile::parse(&text, &|id| known.get(id)),
+    };
+    profile.map_err(|wrong| {
         // If stderr cannot be written, the exit code has to say it all.
         let _ = print(name, &text, &wrong, err);
         let first = wrong.first().map(|error| place(&text, error.span.start)).unwrap_or_default();

@@ -50,7 +50,7 @@ impl Shop {
         err: &mut dyn WriteColor,
     ) -> Result<Shop, Problem> {
         let profile = match &args.setting.machine {
-            Some(name) => Some(crate::machines::find(name, known, err)?),
+            Some(name) => Some(crate::machines::find_for_times(name, known, err)?),
             None => own.cloned(),
         };
         let mut machine = profile.as_ref().map(Profile::machine).unwrap_or_default();
@@ -216,7 +216,7 @@ fn tell(
     err.flush()
 }
 
-/// What a program's timing takes for granted.
+/// What a program's timing assumes.
 pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
     let dialect = plan.job.from.dialect;

@@ -52,7 +52,7 @@ pub fn run(args: &Time, known: &DialectRegistry, err: &mut dyn WriteColor) -> Re
         return Ok(Exit::Done);
     }
     if args.reading.from.as_deref() == Some(stored::PAYLOAD) {
-        return stored::run(args, known);
+        return stored::run(args);
     }
     check(args, known)?;
     let mut own = None;

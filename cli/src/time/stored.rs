@@ -1,4 +1,7 @@
-//! Forms that are made of a stored payload in place of a program: rows, and canonical functions.
+//! Rows that are made of a stored payload in place of a program.
+//!
+//! A payload has no work offsets, cutter compensation or path modes. A list of canonical functions made of it would be
+//! another program, so ncc refuses that form.
 //!
 //! ```text
 //! ncc time --from payload part.json --as csv    the rows of the program of which it was made
@@ -10,21 +13,20 @@ use std::path::Path;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::time::csv;
 use ncc_driver::time::drive::Stage;
-use ncc_driver::time::payload::{self, listing};
+use ncc_driver::time::payload;
 
 use super::args::{Form, Time};
 use super::course::{Spool, destination};
 use crate::files;
-use crate::registry::DialectRegistry;
 
 /// What `--from` takes for a payload.
 pub(super) const PAYLOAD: &str = "payload";
 
-/// Writes one form of a payload.
+/// Writes the rows of a payload.
 ///
 /// # Errors
-/// Wrong usage; the file cannot be read, is no payload, or has no such form.
-pub(super) fn run(args: &Time, known: &DialectRegistry) -> Result<Exit, Problem> {
+/// Wrong usage; the file cannot be read, is no payload, or has no times.
+pub(super) fn run(args: &Time) -> Result<Exit, Problem> {
     let path = path(args)?;
     let mut source = files::open(path)?;
     let shown = source.shown.clone();
@@ -35,11 +37,8 @@ pub(super) fn run(args: &Time, known: &DialectRegistry) -> Result<Exit, Problem>
     let destination = destination(args, std::slice::from_ref(&source))?;
     destination.check()?;
     let mut spool = Spool::default();
-    let done = match args.form {
-        Form::Csv => csv::of_document(&document, &mut spool),
-        _ => listing::list(&document, known.dialect("canon")?, &mut spool),
-    };
-    done.map_err(cannot)?.map_err(|unusable| unusable.problem(&document, &shown))?;
+    let done = csv::of_document(&document, &mut spool).map_err(cannot)?;
+    done.map_err(|not| not.problem(&document, &shown))?;
     destination.release(&mut spool.output)?;
     Ok(Exit::Done)
 }
@@ -49,10 +48,10 @@ fn path(args: &Time) -> Result<&Path, Problem> {
     let [path] = args.files.as_slice() else {
         return Err(Problem::usage("several payloads", "call ncc once for each of them"));
     };
-    if !matches!(args.form, Form::Csv | Form::Canon) {
+    if args.form != Form::Csv {
         return Err(Problem::usage(
             format!("a payload with --as {}", args.form.name()),
-            "of a payload, ncc writes --as csv and --as canon",
+            "of a payload, ncc writes --as csv; for other forms, name the program",
         ));
     }
     if args.setting.machine.is_some() || Stage::from(args.stage) == Stage::Before {

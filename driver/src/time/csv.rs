@@ -11,7 +11,7 @@ use ncc_time::{Machine, Timed};
 use super::columns::{Columns, micro, units};
 use super::drive::{Said, Sink};
 use super::duration::short;
-use super::payload::{Document, Unusable};
+use super::payload::{Document, NotProcessed};
 
 /// The columns.
 pub const HEADER: [&str; 11] =
@@ -65,7 +65,7 @@ impl<W: Write> Table<W> {
 ///
 /// # Errors
 /// Writing.
-pub fn of_document(document: &Document, out: impl Write) -> io::Result<Result<(), Unusable>> {
+pub fn of_document(document: &Document, out: impl Write) -> io::Result<Result<(), NotProcessed>> {
     if let Err(unusable) = document.processed() {
         return Ok(Err(unusable));
     }

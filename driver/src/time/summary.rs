@@ -49,7 +49,7 @@ pub struct Timing {
     pub clock: [f64; 2],
     /// Seconds that it takes at least and at most, where the model gives bounds.
     pub bounds: Option<[f64; 2]>,
-    /// What is assumed.
+    /// Facts of machine and control that the times assume, a line each.
     pub assumed: Vec<String>,
     /// All of it.
     pub total: Tally,

@@ -29,7 +29,7 @@ pub(crate) fn cut(checker: &mut Watched, event: &Event, last: [Nanos; AXES]) {
     let limits = &checker.limits;
     let fast = limits.axis_feed.iter().any(|limit| limit.is_some_and(|limit| event.rate > limit));
     let path = limits.max_feed.is_some_and(|limit| event.rate > limit);
-    // What is reported of the path is not reported again for its axes.
+    // One message a move: the path is faster than the machine, so its axes need no other.
     if !fast || path || checker.seen.feed != Known::Said || !matches!(event.kind, Kind::Feed) {
         return;
     }

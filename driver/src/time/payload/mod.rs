@@ -11,8 +11,6 @@
 //!
 //! `writer` makes it of a program that runs, `reader` reads it back. Not here: times.
 
-pub mod listing;
-mod path;
 mod printed;
 mod reader;
 mod refusal;
@@ -27,7 +25,7 @@ use serde_json::{Map, Value};
 use super::drive::Stage;
 
 pub use reader::read;
-pub use refusal::{Unread, Unusable, Why};
+pub use refusal::{NotProcessed, Unread};
 pub use writer::Writer;
 
 /// The JSON Schema of the document and of the lines of its long form.

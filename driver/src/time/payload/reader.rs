@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 
-use super::refusal::{Unread, Unusable, Why};
+use super::refusal::{NotProcessed, Unread};
 use super::{Block, CALLS, Document, Rotary};
 
 /// Functions that occur after processing.
@@ -139,11 +139,11 @@ impl Document {
     ///
     /// # Errors
     /// The first block that shows that it was not.
-    pub fn processed(&self) -> Result<(), Unusable> {
+    pub fn processed(&self) -> Result<(), NotProcessed> {
         let call = self.blocks.iter().position(|block| CALLS.contains(&&*block.function_name));
         let timed = self.blocks.iter().any(|block| block.timestamp > 0.0);
         let first = call.or_else(|| self.blocks.iter().position(Block::moves).filter(|_| !timed));
-        first.map_or(Ok(()), |place| Err(Unusable { place, why: Why::NotProcessed }))
+        first.map_or(Ok(()), |place| Err(NotProcessed(place)))
     }
 }
 

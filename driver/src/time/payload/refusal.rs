@@ -14,29 +14,9 @@ pub struct Unread {
     pub reason: String,
 }
 
-/// A block that keeps a document from being used.
+/// A block that shows that a document has not been processed: its place, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unusable {
-    /// Its place in the document, from 0.
-    pub place: usize,
-    /// Why.
-    pub why: Why,
-}
-
-/// Why a block cannot be used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Why {
-    /// The document has not been processed.
-    NotProcessed,
-    /// Its function has no canonical call with what the document has of it.
-    NoCall,
-    /// The length is an edge of the tool.
-    Edge,
-    /// Its way is not the one between its positions: a frame or cutter compensation is active.
-    Path,
-    /// It begins elsewhere than the block before ends: the origin has changed.
-    Origin,
-}
+pub struct NotProcessed(pub usize);
 
 impl Unread {
     /// In words; `name` is the file's.
@@ -50,20 +30,13 @@ impl Unread {
     }
 }
 
-impl Unusable {
+impl NotProcessed {
     /// In words; `name` is the file's.
     pub fn problem(self, document: &Document, name: &str) -> Problem {
-        let form = match self.why {
-            Why::NotProcessed => "payload-not-processed",
-            Why::NoCall => "payload-no-call",
-            Why::Edge => "payload-edge",
-            Why::Path => "payload-path",
-            Why::Origin => "payload-origin",
-        };
-        let function = document.blocks.get(self.place).map_or("", |block: &Block| &block.function_name);
-        let message = problem(form)
+        let function = document.blocks.get(self.0).map_or("", |block: &Block| &block.function_name);
+        let message = problem("payload-not-processed")
             .text("name", name)
-            .text("block", (self.place + 1).to_string())
+            .text("block", (self.0 + 1).to_string())
             .text("function", function);
         Problem::of(Exit::Refused, &message, None)
     }

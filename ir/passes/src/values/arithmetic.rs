@@ -86,7 +86,7 @@ struct Over<'c> {
     computes: &'c Computes,
     own: Option<Num>,
     decimals: &'c Decimals,
-    /// What is assumed.
+    /// The fact of the control on which the result depends.
     taken: Option<ControlFact>,
 }
 

@@ -15,7 +15,7 @@ use ncc_ir::program::Program;
 use ncc_ir::run_time::RunTimeValue;
 use ncc_ir::source::Span;
 
-/// What is assumed.
+/// A fact about run-time values that a pass relies on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assumption {
     /// Numbers that are compared are equal, or further apart than any tolerance.
