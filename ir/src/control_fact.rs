@@ -79,6 +79,11 @@ reasons! {
         ElseIf,
         /// The machine has no axes U, V and W: their places are 0.
         NoSuchAxes,
+        /// The work offset that the program sets to its origin is free for it.
+        OriginWorkOffset {
+            /// 1 is G54.
+            offset: u16,
+        },
         /// A code acts after the move of its block.
         AfterMove {
             /// The code.

@@ -4,6 +4,7 @@
 //! first. Every fault that does not refuse a program has its rank here, in one exhaustive match: a new fault does not
 //! compile until it has one. Not here: the order within a rank, and the words.
 
+use crate::control_fact::ControlFact;
 use crate::diag::{Fault, ModeName};
 
 /// What a user has to do, the worst first.
@@ -65,6 +66,7 @@ impl Fault {
             | Fault::AssumedRadius { .. }
             | Fault::AssumedOffsetWithZ
             | Fault::AssumedWorkOffset { .. }
+            | Fault::AssumedFact { fact: ControlFact::OriginWorkOffset { .. } }
             | Fault::AssumedNoEffect { .. }
             | Fault::AssumedRow { .. }
             | Fault::AssumedPath { .. }

@@ -270,6 +270,7 @@ fn key(fact: &ControlFact) -> String {
         A::NoCycleOfCaller => "a-cycle-of-the-caller-s-where-a-subprogram-that-may-not-move-begins",
         A::ElseIf => "elseif-can-be-worked-out-where-it-is-passed-over",
         A::NoSuchAxes => NO_SUCH_AXES,
+        A::OriginWorkOffset { .. } => ORIGIN,
         A::AlarmsEnd => ALARMS,
         A::SwivelRecord { .. } => SWIVEL_RECORD,
         A::QuickCode => "QU-of-an-M-code",
@@ -314,6 +315,7 @@ fn key(fact: &ControlFact) -> String {
 
 const WORD_INCREMENT: &str = "increment-to-which-computed-words-are-rounded";
 const NO_SUCH_AXES: &str = "axes-U-V-and-W-which-the-machine-does-not-have";
+const ORIGIN: &str = "work-offset-1-which-the-program-overwrites-with-its-origin";
 const ALARMS: &str = "alarms-61000-to-61999-and-65000-to-66999";
 const COMPARISON: &str = "MD-10280-PROG_FUNCTION_MASK-bit-0";
 const VARIABLES: &str = "MD-28050-MM_NUM_R_PARAM";
@@ -349,6 +351,7 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         EDGE_IS_ENTRY,
         FEED_ON_ARCS,
         MOTION_AT_CYCLES,
+        ORIGIN,
         RADIUS_IS_ENTRY,
         TIP,
         TILT,

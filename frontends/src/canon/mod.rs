@@ -50,6 +50,7 @@ use lalrpop_util::ParseError;
 use logos::Logos;
 use ncc_dialects::Settings;
 use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Plane, SpindleMode, Units};
+use ncc_ir::control_fact::ControlFact;
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::num::Num;
 use ncc_ir::program::{Move, Op, Stmt};
@@ -183,6 +184,10 @@ impl Reader {
                 self.push(op, skip, span, out);
                 if values {
                     self.push(Op::SetOriginOffsets(lower::ORIGIN), skip, span, out);
+                    if self.assume {
+                        let fact = ControlFact::OriginWorkOffset { offset: lower::ORIGIN };
+                        out.diagnostics.push(Diagnostic::new(Fault::AssumedFact { fact }, span));
+                    }
                 }
             }
             Err((fault, l, r)) => {
