@@ -67,6 +67,12 @@ pub enum RequestFault {
     NoTarget,
     /// The value of a variable is not of the form; why.
     Value(String, String),
+    /// A start position is not of the form; why.
+    Start(String, String),
+    /// The time on the clock before the first block is not 0 or more.
+    StartTime,
+    /// No model of times has this name; the names that there are.
+    NoModel(String),
     /// No pass has this name.
     NoPass(String),
     /// The output would be several files.
@@ -98,6 +104,9 @@ impl From<RequestFault> for Problem {
             RequestFault::NoVerdict(name) => problem("no-verdict").text("name", name),
             RequestFault::NoTarget => problem("no-target"),
             RequestFault::Value(name, reason) => problem("value").text("name", name).text("reason", reason),
+            RequestFault::Start(text, reason) => problem("start").text("text", text).text("reason", reason),
+            RequestFault::StartTime => problem("start-time"),
+            RequestFault::NoModel(name) => problem("no-model").text("name", name),
             RequestFault::NoPass(name) => problem("no-pass").text("name", name),
             RequestFault::SeveralFiles => problem("several-files"),
             RequestFault::NoTolerance => problem("no-tolerance"),
@@ -116,6 +125,8 @@ pub enum BrokenOff {
     Side,
     /// The output is longer than the places of its map.
     LongMap,
+    /// The output is longer than so many bytes, which are the host's limit.
+    LongOutput(u64),
 }
 
 impl fmt::Display for BrokenOff {
@@ -164,13 +175,16 @@ impl Problem {
             return Problem::of(Exit::Interrupted, &message.text("name", name), None);
         }
         let broken_off = error.get_ref().and_then(|inner| inner.downcast_ref::<BrokenOff>());
-        let reason = match error.kind() {
-            _ if broken_off == Some(&BrokenOff::Side) => problem("side-broken-off").headline(),
-            _ if broken_off == Some(&BrokenOff::LongMap) => problem("long-map").headline(),
-            io::ErrorKind::NotFound => problem("not-found").headline(),
-            io::ErrorKind::PermissionDenied => problem("denied").headline(),
-            io::ErrorKind::IsADirectory => problem("folder").headline(),
-            _ => error.to_string(),
+        let reason = match (broken_off, error.kind()) {
+            (Some(BrokenOff::Side), _) => problem("side-broken-off").headline(),
+            (Some(BrokenOff::LongMap), _) => problem("long-map").headline(),
+            (Some(BrokenOff::LongOutput(most)), _) => {
+                problem("long-output").text("most", most.to_string()).headline()
+            }
+            (None, io::ErrorKind::NotFound) => problem("not-found").headline(),
+            (None, io::ErrorKind::PermissionDenied) => problem("denied").headline(),
+            (None, io::ErrorKind::IsADirectory) => problem("folder").headline(),
+            (None, _) => error.to_string(),
         };
         Problem::of(Exit::File, &failed(reason), None)
     }

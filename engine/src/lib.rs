@@ -23,6 +23,7 @@ mod program;
 mod project;
 pub mod request;
 mod simulate;
+mod time;
 mod verbs;
 mod words;
 

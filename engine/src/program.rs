@@ -9,6 +9,7 @@ use codespan_reporting::term::termcolor::Buffer;
 use ncc_dialects::{Dialect, Settings};
 use ncc_driver::guess::recognise;
 use ncc_driver::job::options::{choose, state_units};
+use ncc_driver::job::start::position;
 use ncc_driver::job::{Job, project_file};
 use ncc_driver::machines::pair::Machines;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
@@ -16,11 +17,12 @@ use ncc_driver::side::Side;
 use ncc_driver::source::include_path::{Library, load_subprograms};
 use ncc_driver::source::{Source, not_milling};
 use ncc_driver::time::drive::{Plan, Stage};
-use ncc_ir::canon::Units;
+use ncc_ir::canon::{AXES, Units};
+use ncc_ir::expr::num::Nanos;
 use ncc_machines::project::{MachineRef, Programs};
 use ncc_machines::reading::Side as Whose;
 use ncc_machines::schema::{Schema, WorkOffsetRow};
-use ncc_machines::{Fact, Profile};
+use ncc_machines::{Fact, Profile, ProfileError};
 use ncc_time::{AssumedFact, Model};
 use toml::Spanned;
 
@@ -71,11 +73,26 @@ pub(crate) fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Pr
     if let Some(profile) = ncc_machines::find(name) {
         return Ok(Some(Arc::new(profile.clone())));
     }
-    let text = files.get(name).and_then(|text| std::str::from_utf8(text).ok());
-    let text = text.ok_or_else(|| RequestFault::NoMachine(name.to_owned()))?;
-    let profile = Profile::parse(text, &ncc_dialects::builtin);
-    let wrong = |wrong: Vec<_>| RequestFault::Profile(name.to_owned(), wrong.len()).into();
-    profile.map(|profile| Some(Arc::new(profile))).map_err(wrong)
+    let text = file_text(name, files).ok_or_else(|| RequestFault::NoMachine(name.to_owned()))?;
+    parsed(name, Profile::parse(text, &ncc_dialects::builtin)).map(Some)
+}
+
+fn file_text<'f>(name: &str, files: &'f Files) -> Option<&'f str> {
+    files.get(name).and_then(|text| std::str::from_utf8(text).ok())
+}
+
+fn parsed(name: &str, profile: Result<Profile, Vec<ProfileError>>) -> Result<Arc<Profile>, Problem> {
+    profile.map(Arc::new).map_err(|wrong| RequestFault::Profile(name.to_owned(), wrong.len()).into())
+}
+
+/// The machine of a program that is timed: that of [`machine_of`], or the case study's machine file.
+pub(crate) fn machine_for_times(one: &One, files: &Files) -> Result<Option<Arc<Profile>>, Problem> {
+    let name = one.machine.as_deref().filter(|name| ncc_machines::find(name).is_none());
+    let text = name.and_then(|name| Some((name, file_text(name, files)?)));
+    match text.filter(|(_, text)| text.trim_start().starts_with('{')) {
+        Some((name, text)) => parsed(name, Profile::parse_machine_json(text)).map(Some),
+        None => machine_of(one, files),
+    }
 }
 
 /// What a project file among the files says of a program, if it does.
@@ -187,6 +204,12 @@ pub(crate) fn settings(
     Ok((settings, rivals))
 }
 
+/// Where the tool stands before the first block.
+pub(crate) fn stands(start: Option<&str>) -> Result<[Option<Nanos>; AXES], Problem> {
+    let read = start.map(|text| position(text).map_err(|why| RequestFault::Start(text.to_owned(), why)));
+    Ok(read.transpose()?.unwrap_or_default())
+}
+
 pub(crate) fn pairs(options: &BTreeMap<String, String>) -> Vec<(String, String)> {
     options.iter().map(|(name, value)| (name.clone(), value.clone())).collect()
 }
@@ -200,19 +223,34 @@ pub(crate) fn unit(units: request::Units) -> Units {
 
 /// A program that is executed, with those that it calls.
 pub(crate) fn side(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
-    side_with(one, files, files, messages)
+    side_with(one, machine_of(one, files)?, [files, files], messages)
+}
+
+/// The same on this machine.
+pub(crate) fn side_on(
+    machine: Option<Arc<Profile>>,
+    one: &One,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<Side, Problem> {
+    side_with(one, machine, [files, files], messages)
 }
 
 /// The text of a program alone, whatever it calls: for who changes it.
 pub(crate) fn side_alone(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
-    side_with(one, files, &Files::new(), messages)
+    side_with(one, machine_of(one, files)?, [files, &Files::new()], messages)
 }
 
-fn side_with(one: &One, files: &Files, called: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
+fn side_with(
+    one: &One,
+    machine: Option<Arc<Profile>>,
+    [files, called]: [&Files; 2],
+    messages: &mut Buffer,
+) -> Result<Side, Problem> {
     let mut source = open(&one.file, one.assume_milling, files, messages)?;
     let stated = row(one.project.as_deref(), &one.file, files)?.and_then(|row| row.machine);
     tell_absent(one.machine.as_deref(), stated.as_ref(), files, messages)?;
-    let profile = machine_of(one, files)?;
+    let profile = machine.filter(|machine| !machine.any_control);
     let machines = Machines { from: profile.clone(), to: profile };
     let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;
     // What a profile states of its control holds for programs in that control's language.
@@ -225,8 +263,11 @@ fn side_with(one: &One, files: &Files, called: &Files, messages: &mut Buffer) ->
 }
 
 /// How a program is executed and timed, and what that assumes of its machine.
-pub(crate) fn plan<'p>(job: &'p Job, profile: Option<&Profile>) -> (Plan<'p>, Vec<AssumedFact>) {
-    let model = Model::default();
+pub(crate) fn plan<'p>(
+    job: &'p Job,
+    profile: Option<&Profile>,
+    model: Model,
+) -> (Plan<'p>, Vec<AssumedFact>) {
     let (machine, assumed) = profile.map(Profile::machine).unwrap_or_default().assumed(model);
     let plan = Plan {
         job,

@@ -23,6 +23,7 @@ use ncc_driver::time::drive::{Unwatched, drive};
 use ncc_machines::Profile;
 use ncc_machines::project::Programs;
 use ncc_simulate::{Face, Fixture, Stock, covered, faces};
+use ncc_time::Model;
 
 use crate::program::{Files, Outputs, machine_of, plan, row, side, warn};
 use crate::request::{One, Seek, Simulate};
@@ -70,7 +71,7 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
     let profile = machine_of(one, files)?;
     let Side { mut source, job } = side(one, files, messages)?;
-    let (plan, unstated) = plan(&job, profile.as_deref());
+    let (plan, unstated) = plan(&job, profile.as_deref(), Model::default());
     let mut recorder = Watched::new(&plan);
     let course = drive(&plan, &mut source, &mut recorder, &mut Unwatched).map_err(cannot)?;
     let shown = source.shown.clone();

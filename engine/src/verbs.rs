@@ -26,8 +26,6 @@ use ncc_driver::review::verify::hashes::{self, Named};
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
 use ncc_driver::source::include_path::load_subprograms;
-use ncc_driver::time::drive::{Unwatched, drive};
-use ncc_driver::time::payload::{Header, Look, Writer};
 use ncc_driver::translate::{rewrite, tools_by_name, translate_recording};
 use ncc_ir::diag::Verdict;
 use ncc_machines::Profile;
@@ -37,11 +35,12 @@ use ncc_machines::reading::Side as Whose;
 use crate::colours;
 use crate::editing;
 use crate::program::{
-    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, plan, row, settings, side, tell_absent,
+    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, row, settings, side, stands, tell_absent,
 };
 use crate::project;
 use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};
 use crate::simulate::{self, Kept};
+use crate::time;
 use crate::words;
 
 /// Does a request.
@@ -69,7 +68,7 @@ fn verb(
     match request {
         Request::Translate(asked) => translated(asked, files, messages),
         Request::Check(one) => checked(&simulate::with_datum(one.clone(), files)?, files, messages),
-        Request::Time(one) => timed(one, files, messages),
+        Request::Time(asked) => time::timed(asked, files, messages),
         Request::Diff(two) => differ(two, files, messages),
         Request::Verify(two) => verified(two, files, messages),
         Request::Explain(Explain { code }) => match explain::page(code) {
@@ -168,6 +167,7 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         given,
         values,
         program_number: asked.program_number,
+        start: stands(asked.start.as_deref())?,
         called: source.called.clone(),
         assumed: source.assumed.clone(),
         rivals,
@@ -226,26 +226,6 @@ fn checked(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Out
     let mut findings = Vec::new();
     check::json::write(&mut findings, vec![program]).map_err(cannot)?;
     Ok((if found { Exit::Refused } else { Exit::Done }, vec![("findings", findings)]))
-}
-
-fn timed(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
-    let cannot = |e: io::Error| Problem::file("time", &one.file, &e);
-    let profile = machine_of(one, files)?;
-    let Side { mut source, job } = side(one, files, messages)?;
-    let (plan, _) = plan(&job, profile.as_deref());
-    let title = profile.as_deref().map_or("", |profile| &profile.schema.title);
-    let header = Header { prog_name: &one.file, machine_name: title, dialect: &job.from.dialect.id };
-    let mut times = Vec::new();
-    let mut sink = Writer::new(&header, &plan.machine, Look::DOCUMENT, &mut times).map_err(cannot)?;
-    let course = drive(&plan, &mut source, &mut sink, &mut Unwatched).map_err(cannot)?;
-    sink.finish().map_err(cannot)?;
-    let shown = source.shown.clone();
-    let mut about = About { job: &job, name: &shown, source: &mut source.file };
-    human::print(messages, &mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
-    match course.refused {
-        true => Ok((Exit::Refused, Vec::new())),
-        false => Ok((Exit::Done, vec![("times", times)])),
-    }
 }
 
 /// Both programs of a comparison, and how far lengths may be apart.

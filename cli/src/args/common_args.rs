@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use ncc_driver::job::initial_variables::{InitialVariables, decimal};
+use ncc_driver::job::start::position;
 use ncc_driver::problem::Problem;
 use ncc_driver::render::Loudness;
 use ncc_ir::expr::num::Nanos;
 use ncc_time::{Model, ToolChangeOn};
 
-use crate::args::typed::{Eol, Start, pair, start};
+use crate::args::typed::{Eol, Start, pair};
 use crate::files;
 
 /// In which dialect programs are read.
@@ -29,7 +30,7 @@ pub struct Reading {
 pub struct StartPosition {
     /// Where the tool stands before the first block, in program coordinates, mm and degrees:
     /// `X-9,Y15.588,Z3`
-    #[arg(long, value_name = "AXES", value_parser = start, allow_hyphen_values = true)]
+    #[arg(long, value_name = "AXES", value_parser = position, allow_hyphen_values = true)]
     pub start: Option<Start>,
 }
 

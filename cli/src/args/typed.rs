@@ -4,8 +4,7 @@ use std::fmt;
 
 use clap::ValueEnum;
 use ncc_backends::Numbering;
-use ncc_driver::job::initial_variables::decimal;
-use ncc_ir::canon::{AXES, Axis, Units};
+use ncc_ir::canon::{AXES, Units};
 use ncc_ir::expr::num::Nanos;
 
 /// How canon is written.
@@ -91,23 +90,6 @@ pub(crate) fn numbering(text: &str) -> Result<Numbering, String> {
     every.ok_or_else(|| "write `off`, `keep`, or the first number and the step, such as 10:10".to_owned())
 }
 
-pub(crate) fn start(text: &str) -> Result<Start, String> {
-    let mut start = [None; AXES];
-    for word in text.split(',').map(str::trim) {
-        let mut chars = word.chars();
-        let axis = chars.next().map(|c| c.to_ascii_uppercase());
-        let axis = axis.and_then(|c| u8::try_from(c).ok()).and_then(Axis::from_letter);
-        let axis = axis.ok_or_else(|| format!("`{word}` does not begin with one of X Y Z A B C"))?;
-        let value = decimal(chars.as_str()).ok_or_else(|| {
-            format!("`{word}` is no axis with a decimal, such as {}15.588", axis.letter() as char)
-        })?;
-        if start[axis as usize].replace(value).is_some() {
-            return Err(format!("{} is given twice", axis.letter() as char));
-        }
-    }
-    Ok(start)
-}
-
 /// An M code of the source and what becomes of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MCode {
@@ -190,15 +172,6 @@ pub fn is_name(word: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_stated_start_is_exact() {
-        let s = start("X-9,Y15.588,z+3").unwrap();
-        assert_eq!(s[..3], [Some(-9_000_000_000), Some(15_588_000_000), Some(3_000_000_000)]);
-        for wrong in ["", "X", "X.", "Q1", "X1,X2", "X1e3", "X1.2.3", "X99999999999", "X0.1234567890"] {
-            assert!(start(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn numbering_forms() {

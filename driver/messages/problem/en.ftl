@@ -4,6 +4,7 @@ problem-not-found = there is no such file or folder
 problem-denied = permission denied
 problem-folder = it is a folder
 problem-side-broken-off = its execution broke off; please report it with this program
+problem-long-output = the output would be longer than { $most } bytes
 problem-long-map = its map cannot have places above 4 GiB
 problem-no-store = cannot use the folder of temporary files, { $folder }: { $reason }
     .help = name a folder with free space: { $variable }=/var/tmp ncc …
@@ -63,6 +64,12 @@ problem-no-target = translate into what?
     .help = "to": "siemens"
 problem-value = the value of { $name }: { $reason }
     .help = "_td": "0.25"
+problem-start = the start position `{ $text }`: { $reason }
+    .help = "start": "X-9,Y15.588,Z3"
+problem-start-time = the time on the clock before the first block is not 0 or more
+    .help = "start_time": 84.2
+problem-no-model = there is no model of times `{ $name }`
+    .help = there are: ideal, trapezoidal, jerk-limited
 problem-no-pass = there is no pass `{ $name }`
     .help = `ncc passes` lists them
 problem-several-files = `tool_change=file-per-tool` writes several files: a request gives one

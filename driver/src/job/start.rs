@@ -14,7 +14,7 @@ use ncc_ir::source::Span;
 use ncc_passes::Legaliser;
 
 use super::Job;
-use super::initial_variables::InitialVariables;
+use super::initial_variables::{InitialVariables, decimal};
 use crate::render::numbers::signed;
 
 /// What is stated of the start.
@@ -38,6 +38,27 @@ impl Start {
             target.hold_tool(tool);
         }
     }
+}
+
+/// Reads a position: `X-9,Y15.588,Z3`, mm and degrees; gives nanos, and none of axes that are not named.
+///
+/// # Errors
+/// What is not of this form, in words.
+pub fn position(text: &str) -> Result<[Option<Nanos>; AXES], String> {
+    let mut position = [None; AXES];
+    for word in text.split(',').map(str::trim) {
+        let mut chars = word.chars();
+        let axis = chars.next().map(|c| c.to_ascii_uppercase());
+        let axis = axis.and_then(|c| u8::try_from(c).ok()).and_then(Axis::from_letter);
+        let axis = axis.ok_or_else(|| format!("`{word}` does not begin with one of X Y Z A B C"))?;
+        let value = decimal(chars.as_str()).ok_or_else(|| {
+            format!("`{word}` is no axis with a decimal, such as {}15.588", axis.letter() as char)
+        })?;
+        if position[axis as usize].replace(value).is_some() {
+            return Err(format!("{} is given twice", axis.letter() as char));
+        }
+    }
+    Ok(position)
 }
 
 /// Where the axes stand before the program begins, as assumptions for head and report.
@@ -73,5 +94,19 @@ impl Job {
     /// The tool in the spindle before the program begins, as far as the user states the T code active.
     pub fn tool_at_start(&self) -> Option<u32> {
         self.from.stated_of(&System::SelectedTool).and_then(|(_, tool)| u32::try_from(tool).ok())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stated_start_is_exact() {
+        let s = position("X-9,Y15.588,z+3").expect("a position");
+        assert_eq!(s[..3], [Some(-9_000_000_000), Some(15_588_000_000), Some(3_000_000_000)]);
+        for wrong in ["", "X", "X.", "Q1", "X1,X2", "X1e3", "X1.2.3", "X99999999999", "X0.1234567890"] {
+            assert!(position(wrong).is_err(), "{wrong}");
+        }
     }
 }
