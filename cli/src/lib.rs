@@ -29,6 +29,8 @@ pub mod registry;
 mod report;
 pub mod review;
 pub mod run;
+#[cfg(feature = "serve")]
+pub mod serve;
 pub mod simulate;
 mod target_options;
 pub mod time;

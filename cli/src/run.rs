@@ -104,6 +104,8 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
         Verb::Fmt(args) => return ended(fmt::run(args, &known, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
         Verb::Simulate(args) => return ended(simulate::run(args, &known, &mut err), &mut err),
+        #[cfg(feature = "serve")]
+        Verb::Serve(args) => crate::serve::run(args),
         #[cfg(feature = "studio")]
         Verb::Studio(args) => studio(args, &mut err),
         Verb::Verify(args) => return ended(review::verify::run(args, &known, &mut err), &mut err),
@@ -450,7 +452,7 @@ fn choice(color: Color) -> ColorChoice {
     if wanted { ColorChoice::Always } else { ColorChoice::Never }
 }
 
-fn print(text: &str) -> Result<(), Problem> {
+pub(crate) fn print(text: &str) -> Result<(), Problem> {
     files::to_stdout(&mut |out| out.write_all(text.as_bytes()))
 }
 

@@ -17,11 +17,7 @@ use crate::program::{Files, Outputs, machine_for_times, plan, side_on, stands};
 use crate::request::{self, Form, Time};
 
 /// Times a program.
-pub(crate) fn timed(
-    asked: &Time,
-    files: &Files,
-    messages: &mut Buffer,
-) -> Result<(Exit, Outputs), Problem> {
+pub(crate) fn timed(asked: &Time, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("time", &asked.file, &e);
     let one = asked.one();
     let profile = machine_for_times(&one, files)?;

@@ -35,7 +35,8 @@ use ncc_machines::reading::Side as Whose;
 use crate::colours;
 use crate::editing;
 use crate::program::{
-    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, row, settings, side, stands, tell_absent,
+    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, row, settings, side, stands,
+    tell_absent,
 };
 use crate::project;
 use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};

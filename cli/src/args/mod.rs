@@ -141,6 +141,9 @@ pub enum Verb {
     /// Edit, see, cut and translate programs in the browser, on this computer
     #[cfg(feature = "studio")]
     Studio(Studio),
+    /// Programs, their documents and outputs over HTTP, kept in a database
+    #[cfg(feature = "serve")]
+    Serve(crate::serve::Serve),
     /// Do two programs make the same cut? As strictly as a translation is verified; certificates
     Verify(Box<crate::review::args::Verify>),
     /// Do two programs make the same cut? If not, what differs?

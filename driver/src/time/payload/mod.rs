@@ -26,7 +26,7 @@ use super::drive::Stage;
 
 pub use reader::read;
 pub use refusal::{NotProcessed, Unread};
-pub use writer::Writer;
+pub use writer::{Writer, write};
 
 /// The JSON Schema of the document and of the lines of its long form.
 pub const SCHEMA: &str = include_str!("../../../schema/payload.schema.json");

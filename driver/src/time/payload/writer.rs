@@ -13,7 +13,7 @@ use super::super::columns::{Columns, Row, micro, units};
 use super::super::drive::{Said, Sink, Stage};
 use super::super::parameters;
 use super::printed::Printed;
-use super::{Block, Fields, Header, Look, Rotary, Shape};
+use super::{Block, Document, Fields, Header, Look, Rotary, Shape};
 use crate::render::events;
 
 /// Writes the document.
@@ -73,6 +73,21 @@ impl<'m, W: Write> Writer<'m, W> {
         }
         Ok(())
     }
+}
+
+/// Writes a document that was read back, with these fields and under this name of its machine. In the printed form, nothing
+/// has a way before processing.
+///
+/// # Errors
+/// Writing.
+pub fn write(document: &Document, machine_name: &str, fields: Fields, out: impl Write) -> io::Result<()> {
+    let header = Header { prog_name: &document.prog_name, machine_name, dialect: &document.dialect };
+    let stage = if document.processed().is_ok() { Stage::After } else { Stage::Before };
+    let machine = Machine::default();
+    let look = Look { shape: Shape::Document, stage, fields };
+    let mut writer = Writer::new(&header, &machine, look, out)?;
+    document.blocks.iter().try_for_each(|block| writer.block(block))?;
+    writer.finish()
 }
 
 /// A block without times, between two points of the program.

@@ -1,0 +1,95 @@
+//! `ncc serve`: the service in this process.
+//!
+//! Not here: what it answers (`ncc_service`).
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use ncc_driver::problem::Problem;
+use ncc_service::{OpenError, Part, Service};
+
+use crate::run::print;
+
+/// `ncc serve`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  ncc serve                                     all services, the documents in ncc.sqlite
+  ncc serve --only persistence --listen 127.0.0.1:8275
+  ncc serve --only transpiler --persistence http://127.0.0.1:8275
+
+It answers this computer alone (127.0.0.1), without a login. Ctrl-C ends it: requests that are being answered end first.")]
+pub struct Serve {
+    /// Address and port; port 0 is any that is free
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8274")]
+    pub listen: SocketAddr,
+    /// The file of the database; it is made where it is not there
+    #[arg(long, value_name = "FILE", default_value = "ncc.sqlite")]
+    pub database: PathBuf,
+    /// One of the services alone
+    #[arg(long, value_name = "SERVICE")]
+    pub only: Option<Only>,
+    /// The address of PERSISTENCE, for `--only transpiler` and `--only output`
+    #[arg(long, value_name = "URL")]
+    pub persistence: Option<String>,
+}
+
+/// One of the services.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Only {
+    /// A program in, its document stored
+    Transpiler,
+    /// Documents stored and restored
+    Persistence,
+    /// What is made of a stored document
+    Output,
+}
+
+/// Which services the command line asks for.
+fn part(args: &Serve) -> Result<Part, Problem> {
+    let database = args.database.clone();
+    let elsewhere = || {
+        let needed = || Problem::usage("this service needs the address of PERSISTENCE", "--persistence URL");
+        let address = args.persistence.clone().ok_or_else(needed)?;
+        let plain = Problem::usage(format!("`{address}` is no address of a service"), "http://HOST:PORT");
+        if address.starts_with("http://") { Ok(address) } else { Err(plain) }
+    };
+    let part = match args.only {
+        None => Part::All { database },
+        Some(Only::Persistence) => Part::Persistence { database },
+        Some(Only::Transpiler) => return Ok(Part::Transpiler { persistence: elsewhere()? }),
+        Some(Only::Output) => return Ok(Part::Output { persistence: elsewhere()? }),
+    };
+    match args.persistence {
+        None => Ok(part),
+        Some(_) => Err(Problem::usage(
+            "--persistence with a process that has the store itself",
+            "leave it out, or say which service runs alone: --only transpiler, --only output",
+        )),
+    }
+}
+
+/// Opens the service, and serves until the process is asked to stop.
+///
+/// # Errors
+/// Wrong usage, an address that is taken, a database that cannot be used, or the network.
+pub fn run(args: &Serve) -> Result<(), Problem> {
+    let service = Service::open(args.listen, &part(args)?).map_err(|error| match error {
+        OpenError::NotThisComputer => Problem::usage(
+            format!("{} is no address of this computer alone", args.listen),
+            "there are no logins yet, so it answers this computer only: --listen 127.0.0.1:8274",
+        ),
+        OpenError::Address(error) => Problem::usage(
+            format!("cannot listen on {}: {error}", args.listen),
+            "name another port, such as --listen 127.0.0.1:8275, or 0 for any that is free",
+        ),
+        OpenError::Database(reason) => Problem {
+            exit: ncc_driver::problem::Exit::File,
+            message: format!("cannot use the database {}: {reason}", args.database.display()),
+            help: vec!["name another file: --database FILE".to_owned()],
+        },
+    })?;
+    print(&format!("{}\n", service.address()))?;
+    service.serve().map_err(|error| Problem::file("serve", &args.listen.to_string(), &error))
+}

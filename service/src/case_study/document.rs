@@ -1,0 +1,258 @@
+//! The document that TRANSPILER makes of a program: the payload of the case study in both stages, and the list of
+//! canonical functions.
+//!
+//! | part | what |
+//! |---|---|
+//! | `before`, `after` | the payload before and after processing, in ncc's form, or as it was put in |
+//! | `cmf` | the list of canonical functions, a verified translation of the program |
+//! | `cmf-refused` | why there is no such list: diagnostics as JSON |
+//!
+//! A payload has no work offsets, cutter compensation or path modes, so the list is made of the program, and kept beside.
+
+use std::collections::BTreeMap;
+
+use ncc_driver::time::payload::{self, Document};
+use ncc_engine::Engine;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::http::Problem;
+use crate::store::Parts;
+
+/// The payload before processing.
+pub(crate) const BEFORE: &str = "before";
+/// The payload after processing.
+pub(crate) const AFTER: &str = "after";
+/// The list of canonical functions.
+pub(crate) const CMF: &str = "cmf";
+/// Why there is no such list.
+pub(crate) const CMF_REFUSED: &str = "cmf-refused";
+
+/// The media type of a [`Whole`].
+pub(crate) const WHOLE_MEDIA: &str = "application/vnd.ncc.document+json";
+
+/// Exit codes of the engine.
+const DONE: u8 = 0;
+const USAGE: u8 = 2;
+const FILE: u8 = 4;
+const INTERRUPTED: u8 = 130;
+
+/// A document with all its parts, as the services send it to each other.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Whole {
+    /// The short name of the machine; empty where there is none.
+    pub(crate) machine: String,
+    /// The name of the dialect.
+    pub(crate) dialect: String,
+    /// The parts by their names; all are text.
+    pub(crate) parts: BTreeMap<String, String>,
+}
+
+impl Whole {
+    /// A document that was sent, for a program of this name.
+    ///
+    /// # Errors
+    /// A part is unknown, or no payload of this program.
+    pub(crate) fn checked(self, name: &str) -> Result<(Parts, [String; 2]), Problem> {
+        for (part, text) in &self.parts {
+            match part.as_str() {
+                BEFORE | AFTER => {
+                    read(text.as_bytes(), name)?;
+                }
+                CMF | CMF_REFUSED => {}
+                other => return Err(Problem::content(format!("a document has no part `{other}`"))),
+            }
+        }
+        if !self.parts.contains_key(BEFORE) && !self.parts.contains_key(AFTER) {
+            return Err(Problem::content("it has no payload"));
+        }
+        let parts = self.parts.into_iter().map(|(part, text)| (part, text.into_bytes())).collect();
+        Ok((parts, [self.machine, self.dialect]))
+    }
+}
+
+/// Reads a payload of a program.
+///
+/// # Errors
+/// It is none, or of another program.
+pub(crate) fn read(text: &[u8], name: &str) -> Result<Document, Problem> {
+    let document =
+        payload::read(text).map_err(|unread| Problem::content(unread.problem("the body").message))?;
+    match document.prog_name == name {
+        true => Ok(document),
+        false => Err(Problem::content(format!(
+            "its prog_name is {:?}, and the address says {name:?}",
+            document.prog_name
+        ))),
+    }
+}
+
+/// A payload that was put in by itself.
+///
+/// # Errors
+/// As of [`read`].
+pub(crate) fn of_payload(text: &[u8], name: &str) -> Result<(Parts, [String; 2]), Problem> {
+    let document = read(text, name)?;
+    let part = if document.processed().is_ok() { AFTER } else { BEFORE };
+    Ok((Parts::from([(part.to_owned(), text.to_vec())]), [document.machine_name, document.dialect]))
+}
+
+/// What a program is processed with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Setting {
+    /// The name of its dialect; none is recognised.
+    pub(crate) dialect: Option<String>,
+    /// The name of its machine.
+    pub(crate) machine: Option<String>,
+    /// The machine's profile, where it is not one that comes with ncc.
+    pub(crate) profile: Option<String>,
+    /// Choices where the dictionary leaves a question open.
+    pub(crate) options: BTreeMap<String, String>,
+    /// Where the tool stands before the first block.
+    pub(crate) start: Option<String>,
+    /// Seconds on the clock before the first block.
+    pub(crate) start_time: f64,
+    /// The model of the times.
+    pub(crate) model: Option<String>,
+    /// The function that takes the time of a tool change.
+    pub(crate) tool_change_on: Option<String>,
+    /// Units at power-on.
+    pub(crate) units: Option<String>,
+    /// Whether it is for a mill, whatever it looks like.
+    pub(crate) assume_milling: bool,
+}
+
+/// What was made of a program.
+#[derive(Debug)]
+pub(crate) struct Made {
+    /// The parts of its document.
+    pub(crate) parts: Parts,
+    /// The short name of its machine, and the name of its dialect.
+    pub(crate) of: [String; 2],
+    /// What its writer is told.
+    pub(crate) account: Value,
+}
+
+/// Processes a program. Each payload has `most` bytes at most.
+///
+/// # Errors
+/// The program is refused, or what it is processed with.
+pub(crate) fn process(name: &str, program: &[u8], setting: &Setting, most: u64) -> Result<Made, Problem> {
+    let mut engine = Engine::default();
+    engine.put(name, program.to_vec());
+    // Files of one name would be one file.
+    let machine = setting.machine.as_ref().map(|own| match (&setting.profile, own == name) {
+        (Some(_), true) => format!("machine {own}"),
+        _ => own.clone(),
+    });
+    if let (Some(machine), Some(profile)) = (&machine, &setting.profile) {
+        engine.put(machine, profile.clone().into_bytes());
+    }
+    let mut time = json!({ "verb": "time", "file": name, "findings": true, "most": most });
+    state(&mut time, setting, machine.as_deref());
+    let after = timed(&mut engine, &time)?;
+    let findings: Value = output(&engine, "findings").unwrap_or(Value::Null);
+    time["stage"] = "before".into();
+    let before = timed(&mut engine, &time)?;
+    let document = read(&after, name)?;
+    let mut parts = Parts::from([(AFTER.to_owned(), after), (BEFORE.to_owned(), before)]);
+    let refused = match canonical(&mut engine, name, setting, machine.as_deref(), &document.dialect) {
+        Ok(list) => {
+            parts.insert(CMF.to_owned(), list);
+            None
+        }
+        Err(found) => {
+            parts.insert(CMF_REFUSED.to_owned(), serde_json::to_vec(&found).unwrap_or_default());
+            Some(found)
+        }
+    };
+    let account = json!({
+        "prog_name": name,
+        "machine_name": setting.machine.as_deref().unwrap_or_default(),
+        "dialect": document.dialect,
+        "blocks": document.blocks.len(),
+        "seconds": document.blocks.last().map_or(0.0, |block| block.timestamp),
+        "diagnostics": findings,
+        "cmf": refused.is_none(),
+        "cmf_refused": refused,
+    });
+    Ok(Made { parts, of: [setting.machine.clone().unwrap_or_default(), document.dialect], account })
+}
+
+/// States in a request what a program is processed with.
+fn state(request: &mut Value, setting: &Setting, machine: Option<&str>) {
+    request["from"] = json!(setting.dialect);
+    request["machine"] = json!(machine);
+    request["from_option"] = json!(setting.options);
+    request["start"] = json!(setting.start);
+    request["start_time"] = json!(setting.start_time);
+    request["model"] = json!(setting.model);
+    request["tool_change_on"] = json!(setting.tool_change_on);
+    request["units"] = json!(setting.units);
+    request["assume_milling"] = json!(setting.assume_milling);
+}
+
+fn timed(engine: &mut Engine, request: &Value) -> Result<Vec<u8>, Problem> {
+    let code = engine.run(&request.to_string());
+    match (code, engine.output("times")) {
+        (DONE, Some(times)) => Ok(times.to_vec()),
+        _ => Err(refusal(engine, code, "findings")),
+    }
+}
+
+fn output(engine: &Engine, name: &str) -> Option<Value> {
+    engine.output(name).and_then(|bytes| serde_json::from_slice(bytes).ok())
+}
+
+/// Why the engine has not done a request.
+fn refusal(engine: &Engine, code: u8, findings: &str) -> Problem {
+    let messages = engine.output("messages").map(|text| String::from_utf8_lossy(text).into_owned());
+    let messages = messages.unwrap_or_default();
+    let plain = || messages.trim().trim_start_matches("error: ").to_owned();
+    match code {
+        USAGE => Problem::request(plain()),
+        FILE | INTERRUPTED => Problem::refused(plain(), None, messages.clone()),
+        _ => {
+            let found = output(engine, findings);
+            Problem::refused("it has errors, or is for no mill: see the messages", found, messages.clone())
+        }
+    }
+}
+
+/// The program as a list of canonical functions, verified; or the diagnostics that keep it from being one.
+fn canonical(
+    engine: &mut Engine,
+    name: &str,
+    setting: &Setting,
+    machine: Option<&str>,
+    dialect: &str,
+) -> Result<Vec<u8>, Value> {
+    // The case study's machine file names no control, and has rates and times alone: they have no place in the list.
+    let names_control = setting.profile.as_ref().is_none_or(|text| !text.trim_start().starts_with('{'));
+    let request = json!({
+        "verb": "translate",
+        "file": name,
+        "from": dialect,
+        "to": "canon",
+        "machine_from": machine.filter(|_| names_control),
+        "from_option": setting.options,
+        "start": setting.start,
+        "units": setting.units,
+        "assume_milling": setting.assume_milling,
+        "no_head": true,
+    });
+    let code = engine.run(&request.to_string());
+    match (code, engine.output("output")) {
+        (DONE, Some(list)) => Ok(list.to_vec()),
+        _ => {
+            let report = output(engine, "report").unwrap_or_default();
+            let told = engine.output("messages").map(|text| String::from_utf8_lossy(text).into_owned());
+            Err(json!({
+                "questions": report.get("questions"),
+                "diagnostics": report.get("diagnostics"),
+                "messages": told,
+            }))
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Where documents are kept: in this process' store, or by another service.
+
+use std::sync::Arc;
+
+use super::Remote;
+use super::document::Whole;
+use crate::http::Problem;
+use crate::store::{Condition, Listed, Machine, Parts, Store};
+
+/// Where documents are kept.
+#[derive(Clone)]
+pub(crate) enum Shelf {
+    /// In the store of this process.
+    Here(Arc<Store>),
+    /// By a PERSISTENCE elsewhere.
+    There(Arc<Remote>),
+}
+
+/// Parts of a document that was asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct Found {
+    /// The document's tag.
+    pub(crate) tag: String,
+    /// The short name of its machine.
+    pub(crate) machine: String,
+    /// The name of its dialect.
+    pub(crate) dialect: String,
+    /// Those parts that are wanted and there.
+    pub(crate) parts: Parts,
+}
+
+impl Shelf {
+    /// Keeps a document under a name that is free; gives its tag.
+    pub(crate) fn create(&self, name: &str, of: &[String; 2], parts: Parts) -> Result<String, Problem> {
+        match self {
+            Shelf::Here(store) => Ok(store.create(name, [&of[0], &of[1]], &parts)?),
+            Shelf::There(remote) => remote.create(name, &whole(of, parts)?),
+        }
+    }
+
+    /// Keeps a document in the place of the one under a name; gives its tag.
+    pub(crate) fn replace(
+        &self,
+        name: &str,
+        of: &[String; 2],
+        parts: Parts,
+        over: &Condition,
+    ) -> Result<String, Problem> {
+        match self {
+            Shelf::Here(store) => Ok(store.replace(name, [&of[0], &of[1]], &parts, over)?),
+            Shelf::There(remote) => remote.replace(name, &whole(of, parts)?, over),
+        }
+    }
+
+    /// Lets go of a document.
+    pub(crate) fn delete(&self, name: &str, over: &Condition) -> Result<(), Problem> {
+        match self {
+            Shelf::Here(store) => Ok(store.delete(name, over)?),
+            Shelf::There(remote) => remote.delete(name, over),
+        }
+    }
+
+    /// A document, with those of its parts that are wanted.
+    pub(crate) fn find(&self, name: &str, wanted: &[&str]) -> Result<Found, Problem> {
+        match self {
+            Shelf::Here(store) => {
+                let (about, parts) = store.parts(name, wanted)?;
+                Ok(Found { tag: about.tag, machine: about.machine, dialect: about.dialect, parts })
+            }
+            Shelf::There(remote) => {
+                let (tag, whole) = remote.find(name)?;
+                let parts = whole.parts.into_iter().filter(|(part, _)| wanted.contains(&part.as_str()));
+                let parts = parts.map(|(part, text)| (part, text.into_bytes())).collect();
+                Ok(Found { tag, machine: whole.machine, dialect: whole.dialect, parts })
+            }
+        }
+    }
+
+    /// Documents in the order of their names, those after a name, so many at most.
+    pub(crate) fn list(&self, after: &str, most: u32) -> Result<Vec<Listed>, Problem> {
+        match self {
+            Shelf::Here(store) => Ok(store.list(after, most)?),
+            Shelf::There(remote) => remote.list(after, most),
+        }
+    }
+
+    /// The profile of a machine.
+    pub(crate) fn machine(&self, name: &str) -> Result<Machine, Problem> {
+        match self {
+            Shelf::Here(store) => Ok(store.machine(name)?),
+            Shelf::There(remote) => remote.machine(name),
+        }
+    }
+}
+
+/// A document as it is sent.
+pub(crate) fn whole([machine, dialect]: &[String; 2], parts: Parts) -> Result<Whole, Problem> {
+    let text = |(part, bytes)| Some((part, String::from_utf8(bytes).ok()?));
+    let parts = parts.into_iter().map(text).collect::<Option<_>>();
+    let parts = parts.ok_or_else(|| Problem::content("a part is no text"))?;
+    Ok(Whole { machine: machine.clone(), dialect: dialect.clone(), parts })
+}

@@ -1,0 +1,135 @@
+//! TRANSPILER: a program in, its document stored (Aguiar 2023, 3.2).
+//!
+//! A program that is refused is not stored; the answer has what is wrong with it, and where. GET gives the payload after
+//! processing in the case study's form; `?stage=before` and `?form=ncc` give others.
+
+use std::sync::Arc;
+
+use axum::body::Bytes;
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{Path, RawQuery, State};
+use axum::http::header::{ETAG, LOCATION};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Response};
+
+use super::document::{Setting, process};
+use super::persistence::{Form, read_in};
+use super::shelf::Shelf;
+use crate::Shared;
+use crate::http::body::{self, encoded};
+use crate::http::conditions::{etag, expected};
+use crate::http::query::Query;
+use crate::http::{self, Problem};
+
+/// What the address of a program takes.
+const TAKES: &str =
+    "dialect, machine, option, start, start_time, model, tool_change_on, units, assume_milling";
+
+/// What a program is processed with, as its address states it.
+fn stated(query: Option<&str>) -> Result<Setting, Problem> {
+    let mut query = Query::of(query);
+    let words = |own: &'static [&'static str]| own.iter().map(|word| (*word, *word)).collect::<Vec<_>>();
+    let setting = Setting {
+        dialect: query.one("dialect")?,
+        machine: query.one("machine")?,
+        profile: None,
+        options: query.pairs("option")?,
+        start: query.one("start")?,
+        start_time: query.number("start_time")?.unwrap_or_default(),
+        model: query.one("model")?,
+        tool_change_on: query.among("tool_change_on", &words(&["select", "change"]))?.map(str::to_owned),
+        units: query.among("units", &words(&["mm", "inch"]))?.map(str::to_owned),
+        assume_milling: query.among("assume_milling", &[("true", true), ("false", false)])?.unwrap_or(false),
+    };
+    query.end(TAKES)?;
+    Ok(setting)
+}
+
+/// Fetches the machine's profile, where it is not one that comes with ncc.
+fn with_profile(setting: &mut Setting, shelf: &Shelf) -> Result<(), Problem> {
+    let Some(name) = setting.machine.as_deref().filter(|name| ncc_machines::find(name).is_none()) else {
+        return Ok(());
+    };
+    let absent = |problem: Problem| match problem.is_absent() {
+        true => Problem::request(format!("there is no machine `{name}`"))
+            .help("GET /api/v1/machines lists them; PUT /api/v1/machines/NAME keeps another one"),
+        false => problem,
+    };
+    setting.profile = Some(shelf.machine(name).map_err(absent)?.text);
+    Ok(())
+}
+
+/// The program of a body.
+fn program(headers: &HeaderMap, body: Result<Bytes, BytesRejection>, most: u64) -> Result<Bytes, Problem> {
+    match body::media(headers).as_deref() {
+        None | Some("application/octet-stream") => {}
+        Some(media) if media.starts_with("text/") => {}
+        Some(_) => return Err(Problem::media("text/plain")),
+    }
+    body::whole(body, most)
+}
+
+/// Processes a program, and stores its document under a name that is free.
+pub(super) async fn create(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    body::name(&name)?;
+    let mut setting = stated(query.as_deref())?;
+    let program = program(&headers, body, shared.largest)?;
+    let place = format!("/transpiler/{}", encoded(&name));
+    let most = shared.largest;
+    let (tag, account) = shared
+        .work(move |shelf| {
+            with_profile(&mut setting, shelf)?;
+            let made = process(&name, &program, &setting, most)?;
+            Ok((shelf.create(&name, &made.of, made.parts)?, made.account))
+        })
+        .await?;
+    let headers = [(LOCATION, place), (ETAG, etag(&tag, ""))];
+    Ok((StatusCode::CREATED, headers, http::json(&account)).into_response())
+}
+
+/// Processes a program, and stores its document in the place of the one under its name. Dialect and machine are those of
+/// that one, unless the address names others.
+pub(super) async fn update(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    body::name(&name)?;
+    let mut setting = stated(query.as_deref())?;
+    let over = expected(&headers)?;
+    let program = program(&headers, body, shared.largest)?;
+    let most = shared.largest;
+    let (tag, account) = shared
+        .work(move |shelf| {
+            let there = shelf.find(&name, &[])?;
+            if setting.dialect.is_none() {
+                setting.dialect = Some(there.dialect);
+            }
+            if setting.machine.is_none() {
+                setting.machine = Some(there.machine).filter(|machine| !machine.is_empty());
+            }
+            with_profile(&mut setting, shelf)?;
+            let made = process(&name, &program, &setting, most)?;
+            Ok((shelf.replace(&name, &made.of, made.parts, &over)?, made.account))
+        })
+        .await?;
+    Ok((StatusCode::OK, [(ETAG, etag(&tag, ""))], http::json(&account)).into_response())
+}
+
+/// Gives the payload.
+pub(super) async fn read(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    read_in(&shared, name, query.as_deref(), &headers, Form::Printed).await
+}

@@ -1,0 +1,20 @@
+//! What all addresses have in common: conditions, queries, bodies, problems, and who is let in.
+
+pub(crate) mod body;
+pub(crate) mod conditions;
+pub(crate) mod gate;
+pub(crate) mod problem;
+pub(crate) mod query;
+
+use axum::http::header::CONTENT_TYPE;
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+
+pub(crate) use self::problem::Problem;
+
+/// A document as JSON, for people too.
+pub(crate) fn json(document: &impl Serialize) -> Response {
+    let mut text = serde_json::to_vec_pretty(document).unwrap_or_default();
+    text.push(b'\n');
+    ([(CONTENT_TYPE, "application/json")], text).into_response()
+}

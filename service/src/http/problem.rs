@@ -1,0 +1,211 @@
+//! What was not done, as RFC 9457 has it: `application/problem+json`.
+
+use axum::http::header::{CONTENT_TYPE, RETRY_AFTER};
+use axum::http::{HeaderValue, StatusCode};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::store::StoreError;
+use crate::work::NotDone;
+
+/// The media type.
+pub(crate) const MEDIA: &str = "application/problem+json";
+
+/// What was not done, and why.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Problem {
+    /// The name of its kind.
+    #[serde(rename = "type")]
+    kind: String,
+    /// The same in words.
+    title: &'static str,
+    status: u16,
+    /// What is wrong with this request.
+    detail: String,
+    /// What to do.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    help: Vec<String>,
+    /// What is wrong with the program: as in a line of `ncc --format json`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    diagnostics: Option<Value>,
+    /// The same as the command line prints it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    messages: Option<String>,
+    #[serde(skip)]
+    retry_after: Option<u32>,
+}
+
+/// A kind of problem: its name, its status, and its words.
+type Kind = (&'static str, StatusCode, &'static str);
+
+const ABSENT: Kind = ("absent", StatusCode::NOT_FOUND, "nothing is kept under this name");
+const EXISTS: Kind = ("exists", StatusCode::CONFLICT, "the name is taken");
+const CHANGED: Kind = ("changed", StatusCode::PRECONDITION_FAILED, "it is not what you have read");
+const REQUEST: Kind = ("request", StatusCode::BAD_REQUEST, "the request is not of the form");
+const MEDIA_TYPE: Kind = ("media-type", StatusCode::UNSUPPORTED_MEDIA_TYPE, "the body is of another type");
+const TOO_LARGE: Kind = ("too-large", StatusCode::PAYLOAD_TOO_LARGE, "the body is too large");
+const REFUSED: Kind = ("refused", StatusCode::UNPROCESSABLE_ENTITY, "the program is refused");
+const CONTENT: Kind = ("content", StatusCode::UNPROCESSABLE_ENTITY, "the body cannot be used");
+const NOT_MADE: Kind = ("not-made", StatusCode::UNPROCESSABLE_ENTITY, "this output cannot be made");
+const TOO_LONG: Kind = ("too-long", StatusCode::UNPROCESSABLE_ENTITY, "the program takes too long");
+const STRANGER: Kind = ("stranger", StatusCode::FORBIDDEN, "the request is not meant for this server");
+const METHOD: Kind = ("method", StatusCode::METHOD_NOT_ALLOWED, "the address does not take this method");
+const FULL: Kind = ("full", StatusCode::INSUFFICIENT_STORAGE, "the disk is full");
+const BUSY: Kind = ("busy", StatusCode::SERVICE_UNAVAILABLE, "too much is asked at once");
+const OTHER: Kind =
+    ("other-service", StatusCode::BAD_GATEWAY, "another service does not answer as it should");
+const FAULT: Kind = ("fault", StatusCode::INTERNAL_SERVER_ERROR, "a fault of the service");
+
+impl Problem {
+    fn of((name, status, title): Kind, detail: impl Into<String>) -> Problem {
+        Problem {
+            kind: format!("urn:ncc:problem:{name}"),
+            title,
+            status: status.as_u16(),
+            detail: detail.into(),
+            help: Vec::new(),
+            diagnostics: None,
+            messages: None,
+            retry_after: (status == StatusCode::SERVICE_UNAVAILABLE).then_some(1),
+        }
+    }
+
+    /// With what to do.
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Problem {
+        self.help.push(help.into());
+        self
+    }
+
+    /// Nothing is kept under a name.
+    pub(crate) fn absent(detail: impl Into<String>) -> Problem {
+        Problem::of(ABSENT, detail)
+    }
+
+    /// Whether nothing is kept under the name.
+    pub(crate) fn is_absent(&self) -> bool {
+        self.status == StatusCode::NOT_FOUND.as_u16()
+    }
+
+    /// The request is not of the form.
+    pub(crate) fn request(detail: impl Into<String>) -> Problem {
+        Problem::of(REQUEST, detail)
+    }
+
+    /// The body is of another type than it should be.
+    pub(crate) fn media(takes: &str) -> Problem {
+        Problem::of(MEDIA_TYPE, format!("it takes {takes}")).help(format!("Content-Type: {takes}"))
+    }
+
+    /// The body is too large.
+    pub(crate) fn too_large(most: u64) -> Problem {
+        Problem::of(TOO_LARGE, format!("it takes {most} bytes at most"))
+    }
+
+    /// The body is not what it should be.
+    pub(crate) fn content(detail: impl Into<String>) -> Problem {
+        Problem::of(CONTENT, detail)
+    }
+
+    /// The program is refused: what was found, as JSON and as the command line prints it.
+    pub(crate) fn refused(
+        detail: impl Into<String>,
+        diagnostics: Option<Value>,
+        messages: String,
+    ) -> Problem {
+        let messages = Some(messages).filter(|text| !text.is_empty());
+        Problem { diagnostics, messages, ..Problem::of(REFUSED, detail) }
+    }
+
+    /// The output cannot be made of what is stored.
+    pub(crate) fn not_made(detail: impl Into<String>, diagnostics: Option<Value>) -> Problem {
+        Problem { diagnostics, ..Problem::of(NOT_MADE, detail) }
+    }
+
+    /// The body has faults, each with its place.
+    pub(crate) fn faulty(detail: impl Into<String>, diagnostics: Value) -> Problem {
+        Problem { diagnostics: Some(diagnostics), ..Problem::of(CONTENT, detail) }
+    }
+
+    /// The name is taken.
+    pub(crate) fn exists(detail: impl Into<String>) -> Problem {
+        Problem::of(EXISTS, detail)
+    }
+
+    /// The request is not meant for this server.
+    pub(crate) fn stranger() -> Problem {
+        Problem::of(STRANGER, "its Host or its Origin is another one")
+    }
+
+    /// The address does not take the method.
+    pub(crate) fn method() -> Problem {
+        Problem::of(METHOD, "the Allow header lists those that it takes")
+    }
+
+    /// There is no such address.
+    pub(crate) fn no_address() -> Problem {
+        Problem::absent("there is no such address")
+    }
+
+    /// Another service cannot be reached, or answers with something else.
+    pub(crate) fn other_service(detail: impl Into<String>) -> Problem {
+        Problem::of(OTHER, detail)
+    }
+
+    /// A fault of the service; what it was is written to its log.
+    pub(crate) fn fault() -> Problem {
+        Problem::of(FAULT, "the log of the service tells more")
+    }
+
+    /// Of work that was not done within its limits.
+    pub(crate) fn of_work(not: NotDone, limit: std::time::Duration) -> Problem {
+        match not {
+            NotDone::Busy => Problem::of(BUSY, "all places of the queue are taken").help("ask again later"),
+            NotDone::TooLong => {
+                Problem::of(TOO_LONG, format!("it was stopped after {} s", limit.as_secs_f64()))
+            }
+            NotDone::Broken => Problem::fault(),
+        }
+    }
+
+    /// The same problem of another service, as it was told.
+    pub(crate) fn passed_on(status: StatusCode, body: Value) -> Problem {
+        let kind = [ABSENT, EXISTS, CHANGED, TOO_LARGE, CONTENT, FULL, BUSY]
+            .into_iter()
+            .find(|kind| kind.1 == status)
+            .unwrap_or(OTHER);
+        let detail = body.get("detail").and_then(Value::as_str).unwrap_or("it gives no reason").to_owned();
+        Problem::of(kind, detail)
+    }
+}
+
+impl From<StoreError> for Problem {
+    fn from(error: StoreError) -> Problem {
+        match error {
+            StoreError::Absent => Problem::of(ABSENT, "there is none"),
+            StoreError::Exists => Problem::of(EXISTS, "POST makes new ones only").help("PUT replaces it"),
+            StoreError::Changed => {
+                Problem::of(CHANGED, "another request has changed it").help("read it again")
+            }
+            StoreError::Full => Problem::of(FULL, "nothing was changed"),
+            StoreError::Busy => Problem::of(BUSY, "the database is taken by others").help("ask again later"),
+            StoreError::Database(words) => {
+                crate::log::fault(&words);
+                Problem::fault()
+            }
+        }
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let mut body = serde_json::to_vec_pretty(&self).unwrap_or_default();
+        body.push(b'\n');
+        let mut answer = (status, [(CONTENT_TYPE, MEDIA)], body).into_response();
+        if let Some(seconds) = self.retry_after {
+            answer.headers_mut().insert(RETRY_AFTER, HeaderValue::from(seconds));
+        }
+        answer
+    }
+}

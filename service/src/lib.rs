@@ -1,0 +1,206 @@
+//! The service: programs, their documents and outputs over HTTP, kept in a database.
+//!
+//! | addresses | what |
+//! |---|---|
+//! | `/transpiler`, `/persistence`, `/output` | the services of the case study ([`case_study`]) |
+//! | `/api/v1/machines` | profiles of machines ([`machines`]) |
+//!
+//! One process has all of them ([`Part::All`]), or one of the case study's three, which finds PERSISTENCE over HTTP. No
+//! state is in a process but the store's connections. Programs are read from requests alone: no file of the server is
+//! readable through a program's calls. Work of the compiler has limits of time, size and number (`work`).
+//!
+//! It answers this computer alone, without a login. Not here: the compiler (`ncc_engine`, `ncc_driver`), the command line.
+
+mod case_study;
+mod http;
+mod log;
+mod machines;
+mod store;
+mod work;
+
+use std::io;
+use std::net::{SocketAddr, TcpListener};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::extract::DefaultBodyLimit;
+use axum::{Router, middleware};
+
+use self::case_study::{Remote, Shelf};
+use self::http::{Problem, gate};
+use self::store::Store;
+use self::work::Pool;
+
+/// Bytes of a program and of a document at most.
+const LARGEST: u64 = 256 << 20;
+
+/// Pieces of work that wait for each thread at most.
+const WAITING: usize = 64;
+
+/// How long a piece of work may take.
+const LIMIT: Duration = Duration::from_secs(30);
+
+/// Bytes of a thread's stack: programs nest.
+const STACK: usize = 8 << 20;
+
+/// Which services a process has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// All of them.
+    All {
+        /// The file of the database; it is made where it is not there.
+        database: PathBuf,
+    },
+    /// PERSISTENCE and the machines' profiles.
+    Persistence {
+        /// As of [`Part::All`].
+        database: PathBuf,
+    },
+    /// TRANSPILER.
+    Transpiler {
+        /// The address of PERSISTENCE: `http://127.0.0.1:8275`.
+        persistence: String,
+    },
+    /// OUTPUT.
+    Output {
+        /// As of [`Part::Transpiler`].
+        persistence: String,
+    },
+}
+
+/// Why a server cannot be opened.
+#[derive(Debug)]
+pub enum OpenError {
+    /// It would answer other computers, and there are no logins.
+    NotThisComputer,
+    /// The address cannot be listened on.
+    Address(io::Error),
+    /// The database cannot be used; its reason.
+    Database(String),
+}
+
+/// What all requests share.
+struct Shared {
+    shelf: Shelf,
+    /// The store, where this process has it.
+    own: Option<Arc<Store>>,
+    pool: Pool,
+    /// Bytes of a program and of a document at most.
+    largest: u64,
+}
+
+impl Shared {
+    /// Does something with the documents, on a thread that may wait.
+    async fn keep<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&Shelf) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let shelf = self.shelf.clone();
+        tokio::task::spawn_blocking(move || work(&shelf)).await.unwrap_or_else(|_| Err(Problem::fault()))
+    }
+
+    /// Does something with the store of this process, on a thread that may wait.
+    async fn store<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&Store) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let store = self.own.clone().ok_or_else(Problem::no_address)?;
+        tokio::task::spawn_blocking(move || work(&store)).await.unwrap_or_else(|_| Err(Problem::fault()))
+    }
+
+    /// Does work of the compiler, within its limits.
+    async fn work<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&Shelf) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let shelf = self.shelf.clone();
+        let done = self.pool.run(move || work(&shelf)).await;
+        done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
+    }
+}
+
+/// A server that is ready.
+pub struct Service {
+    listener: TcpListener,
+    here: SocketAddr,
+    routes: Router<Arc<Shared>>,
+    shared: Arc<Shared>,
+    threads: usize,
+}
+
+impl Service {
+    /// Listens on an address of this computer; port 0 is any that is free.
+    ///
+    /// # Errors
+    /// It is no address of this computer, it is taken, or the database cannot be used.
+    pub fn open(listen: SocketAddr, part: &Part) -> Result<Service, OpenError> {
+        if !listen.ip().is_loopback() {
+            return Err(OpenError::NotThisComputer);
+        }
+        let own = match part {
+            Part::All { database } | Part::Persistence { database } => {
+                let store = Store::open(database).map_err(|error| OpenError::Database(error.to_string()))?;
+                Some(Arc::new(store))
+            }
+            Part::Transpiler { .. } | Part::Output { .. } => None,
+        };
+        let (routes, elsewhere) = match part {
+            Part::All { .. } => (
+                case_study::transpiler()
+                    .merge(case_study::persistence())
+                    .merge(case_study::output())
+                    .merge(machines::routes()),
+                None,
+            ),
+            Part::Persistence { .. } => (case_study::persistence().merge(machines::routes()), None),
+            Part::Transpiler { persistence } => (case_study::transpiler(), Some(persistence)),
+            Part::Output { persistence } => (case_study::output(), Some(persistence)),
+        };
+        let there = || Shelf::There(Arc::new(Remote::at(elsewhere.map_or("", String::as_str))));
+        let shelf = own.clone().map_or_else(there, Shelf::Here);
+        let listener = TcpListener::bind(listen).map_err(OpenError::Address)?;
+        let here = listener.local_addr().map_err(OpenError::Address)?;
+        let threads = std::thread::available_parallelism().map_or(2, usize::from);
+        let pool = Pool::new(threads, WAITING, LIMIT);
+        let shared = Arc::new(Shared { shelf, own, pool, largest: LARGEST });
+        Ok(Service { listener, here, routes, shared, threads })
+    }
+
+    /// Where it listens.
+    pub fn address(&self) -> String {
+        format!("http://{}", self.here)
+    }
+
+    /// Serves until the process is asked to stop (`ncc_exec::halt`); requests that are being answered end first.
+    ///
+    /// # Errors
+    /// The network.
+    pub fn serve(self) -> io::Result<()> {
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(self.threads)
+            .thread_stack_size(STACK)
+            .max_blocking_threads(64)
+            .enable_all()
+            .build()?;
+        let routes = self
+            .routes
+            .fallback(async || Problem::no_address())
+            .method_not_allowed_fallback(async || Problem::method())
+            .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
+            .layer(middleware::from_fn_with_state(gate::Gate::new(self.here), gate::pass))
+            .with_state(self.shared);
+        runtime.block_on(async {
+            self.listener.set_nonblocking(true)?;
+            let listener = tokio::net::TcpListener::from_std(self.listener)?;
+            let stopped = async {
+                while !ncc_exec::halt::is_asked() {
+                    tokio::time::sleep(Duration::from_millis(50)).await;
+                }
+            };
+            axum::serve(listener, routes).with_graceful_shutdown(stopped).await
+        })?;
+        runtime.shutdown_background();
+        Ok(())
+    }
+}

@@ -1,0 +1,157 @@
+//! Machines: those that come with ncc, and profiles that were put in.
+//!
+//! ```text
+//! GET    /api/v1/machines         all of them
+//! GET    /api/v1/machines/NAME    a profile, as its owner wrote it
+//! PUT    /api/v1/machines/NAME    a profile (TOML), or the case study's machine.json
+//! DELETE /api/v1/machines/NAME
+//! ```
+
+use std::sync::Arc;
+
+use axum::Router;
+use axum::body::Bytes;
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{Path, RawQuery, State};
+use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use ncc_driver::machines::words::words;
+use ncc_machines::{Profile, ProfileError};
+use serde_json::{Value, json};
+
+use crate::Shared;
+use crate::http::body::{self, encoded};
+use crate::http::conditions::{etag, expected, is_known, not_modified};
+use crate::http::query::Query;
+use crate::http::{self, Problem};
+
+const TOML: &str = "application/toml";
+const JSON: &str = "application/json";
+
+/// Bytes of a profile at most.
+const LARGEST: usize = 1 << 20;
+
+/// Addresses of machines.
+pub(crate) fn routes() -> Router<Arc<Shared>> {
+    Router::new()
+        .route("/api/v1/machines", get(list))
+        .route("/api/v1/machines/{name}", get(read).put(keep).delete(delete))
+}
+
+/// Lists machines.
+async fn list(State(shared): State<Arc<Shared>>, RawQuery(query): RawQuery) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let own = shared.store(|store| Ok(store.machines()?)).await?;
+    let own = own.into_iter().map(|machine| {
+        let profile = profile(&machine.text).ok();
+        let dialect =
+            profile.as_ref().filter(|profile| !profile.any_control).map(|own| own.dialect.id.clone());
+        let title = profile.map(|profile| profile.schema.title);
+        json!({ "name": machine.name, "title": title, "dialect": dialect, "ships_with_ncc": false })
+    });
+    let shipped = ncc_machines::shipped().iter().map(|profile| {
+        let title = &profile.schema.title;
+        json!({ "name": profile.id(), "title": title, "dialect": profile.dialect.id, "ships_with_ncc": true })
+    });
+    let all: Vec<Value> = shipped.chain(own).collect();
+    Ok(http::json(&json!({ "machines": all })))
+}
+
+/// A profile in either form.
+fn profile(text: &str) -> Result<Profile, Vec<ProfileError>> {
+    match text.trim_start().starts_with('{') {
+        true => Profile::parse_machine_json(text),
+        false => Profile::parse(text, &ncc_dialects::builtin),
+    }
+}
+
+/// What is wrong with a profile, each fault with its line and column.
+fn faults(wrong: &[ProfileError], text: &str) -> Value {
+    let fault = |error: &ProfileError| {
+        let before = &text[..error.span.start.min(text.len())];
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        let said = words(&error.wrong, "`ncc machines schema` lists all keys");
+        json!({
+            "code": format!("NC{:04}", error.wrong.code()),
+            "severity": "error",
+            "message": said.message,
+            "place": { "line": line, "column": column, "label": said.label },
+            "advice": said.help.into_iter().collect::<Vec<_>>(),
+        })
+    };
+    wrong.iter().map(fault).collect()
+}
+
+/// Gives a profile.
+async fn read(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    if let Some(text) = ncc_machines::shipped_text(&name) {
+        return Ok(([(CONTENT_TYPE, TOML)], text).into_response());
+    }
+    let machine = shared.store(move |store| Ok(store.machine(&name)?)).await?;
+    let tag = etag(&machine.tag, "");
+    if is_known(&headers, &tag) {
+        return Ok(not_modified(tag));
+    }
+    let media = if machine.text.trim_start().starts_with('{') { JSON } else { TOML };
+    Ok(([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], machine.text).into_response())
+}
+
+/// Keeps a profile.
+async fn keep(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    body::name(&name)?;
+    Query::of(query.as_deref()).end("")?;
+    let over = expected(&headers)?;
+    if !matches!(body::media(&headers).as_deref(), Some(TOML | JSON)) {
+        return Err(Problem::media("application/toml, or application/json for a machine.json"));
+    }
+    let body = body::whole(body, LARGEST as u64)?;
+    if body.len() > LARGEST {
+        return Err(Problem::too_large(LARGEST as u64));
+    }
+    let text =
+        String::from_utf8(body.to_vec()).map_err(|_| Problem::content("a profile is text in UTF-8"))?;
+    let read = profile(&text);
+    let read = read.map_err(|wrong| Problem::faulty("the profile has errors", faults(&wrong, &text)))?;
+    if read.id() != name {
+        return Err(Problem::content(format!("the profile is that of {:?}", read.id()))
+            .help("the address and the profile have one name"));
+    }
+    if ncc_machines::find(&name).is_some() {
+        return Err(Problem::exists(format!("`{name}` comes with ncc")).help("give yours another name"));
+    }
+    let place = format!("/api/v1/machines/{}", encoded(&name));
+    let (tag, is_new) = shared.store(move |store| Ok(store.keep_machine(&name, &text, &over)?)).await?;
+    let tag = etag(&tag, "");
+    Ok(match is_new {
+        true => (StatusCode::CREATED, [(LOCATION, place), (ETAG, tag)]).into_response(),
+        false => (StatusCode::NO_CONTENT, [(ETAG, tag)]).into_response(),
+    })
+}
+
+/// Deletes a profile.
+async fn delete(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Result<StatusCode, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let over = expected(&headers)?;
+    shared.store(move |store| Ok(store.delete_machine(&name, &over)?)).await?;
+    Ok(StatusCode::NO_CONTENT)
+}

@@ -1,0 +1,76 @@
+//! What the service keeps, in a database.
+//!
+//! `database` is the one way to it, `documents` and `machines` are what is kept. Every change is one transaction: it is
+//! there as a whole, or not at all. Not here: what a document says, and HTTP.
+
+mod database;
+mod documents;
+mod machines;
+mod migrations;
+
+use std::fmt;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use self::database::Database;
+
+pub(crate) use self::documents::{Condition, Listed, Parts};
+pub(crate) use self::machines::Machine;
+
+/// Why the store did not do something.
+#[derive(Debug)]
+pub(crate) enum StoreError {
+    /// Nothing has this name.
+    Absent,
+    /// Something has this name already.
+    Exists,
+    /// It is not what the writer has read.
+    Changed,
+    /// The disk is full.
+    Full,
+    /// Others write: it did not get its turn in time.
+    Busy,
+    /// The database's own words.
+    Database(String),
+}
+
+impl fmt::Display for StoreError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StoreError::Absent => out.write_str("nothing has this name"),
+            StoreError::Exists => out.write_str("the name is taken"),
+            StoreError::Changed => out.write_str("it has been changed meanwhile"),
+            StoreError::Full => out.write_str("the disk is full"),
+            StoreError::Busy => out.write_str("others write for too long"),
+            StoreError::Database(words) => out.write_str(words),
+        }
+    }
+}
+
+impl std::error::Error for StoreError {}
+
+/// The store. It is shared by all requests.
+pub(crate) struct Store {
+    database: Database,
+}
+
+impl Store {
+    /// Opens a file, or makes it.
+    ///
+    /// # Errors
+    /// It is no database of ncc, one of a later ncc, or cannot be written.
+    pub(crate) fn open(file: &Path) -> Result<Store, StoreError> {
+        Ok(Store { database: Database::open(file)? })
+    }
+}
+
+/// SHA-256 in hexadecimal digits.
+pub(crate) fn digest(pieces: &[&[u8]]) -> String {
+    let mut digest = Sha256::new();
+    for piece in pieces {
+        digest.update((piece.len() as u64).to_le_bytes());
+        digest.update(piece);
+    }
+    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}

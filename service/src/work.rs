@@ -1,0 +1,116 @@
+//! Work of the compiler: a few pieces at once, each with a limit of time.
+//!
+//! A piece is asked to stop when its time is over, and when nobody waits for its answer any more. Not here: what is done.
+
+use std::time::Duration;
+
+use ncc_exec::halt::{self, Halt};
+use tokio::sync::Semaphore;
+
+/// Why a piece of work has no result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NotDone {
+    /// Too many pieces wait already.
+    Busy,
+    /// Its time was over.
+    TooLong,
+    /// It ended by a fault of ncc.
+    Broken,
+}
+
+/// Threads that compile.
+pub(crate) struct Pool {
+    threads: Semaphore,
+    places: Semaphore,
+    limit: Duration,
+}
+
+/// Asks the work to stop when it is dropped: with its request, or after its end, when that has no effect.
+struct Waiting(Halt);
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.ask();
+    }
+}
+
+impl Pool {
+    /// So many threads; as many pieces of work for each of them wait at most.
+    pub(crate) fn new(threads: usize, waiting: usize, limit: Duration) -> Pool {
+        Pool { threads: Semaphore::new(threads), places: Semaphore::new(threads * (1 + waiting)), limit }
+    }
+
+    /// How long a piece may take.
+    pub(crate) fn limit(&self) -> Duration {
+        self.limit
+    }
+
+    /// Does a piece of work.
+    pub(crate) async fn run<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T, NotDone> {
+        let _place = self.places.try_acquire().map_err(|_| NotDone::Busy)?;
+        let thread = self.threads.acquire().await.map_err(|_| NotDone::Broken)?;
+        let waiting = Waiting(Halt::default());
+        let halt = waiting.0.clone();
+        let mut done = tokio::task::spawn_blocking(move || halt::under(Some(halt), work));
+        match tokio::time::timeout(self.limit, &mut done).await {
+            Ok(done) => done.map_err(|_| NotDone::Broken),
+            Err(_) => {
+                waiting.0.ask();
+                // Its thread is free as soon as it has stopped.
+                let _ = done.await;
+                drop(thread);
+                Err(NotDone::TooLong)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+
+    fn runtime() -> tokio::runtime::Runtime {
+        tokio::runtime::Builder::new_multi_thread().enable_time().build().expect("a runtime")
+    }
+
+    fn until_asked() -> bool {
+        let begun = Instant::now();
+        while !halt::is_asked() && begun.elapsed() < Duration::from_secs(20) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        halt::is_asked()
+    }
+
+    #[test]
+    fn work_that_takes_too_long_is_stopped() {
+        let pool = Pool::new(1, 1, Duration::from_millis(30));
+        let begun = Instant::now();
+        assert_eq!(runtime().block_on(pool.run(until_asked)), Err(NotDone::TooLong));
+        assert!(begun.elapsed() < Duration::from_secs(10));
+    }
+
+    #[test]
+    fn a_full_pool_takes_no_more() {
+        let pool = Pool::new(1, 1, Duration::from_secs(10));
+        let done = runtime().block_on(async {
+            let first = pool.run(|| std::thread::sleep(Duration::from_millis(50)));
+            let second = pool.run(|| ());
+            let third = pool.run(|| ());
+            tokio::join!(first, second, third)
+        });
+        assert_eq!(done, (Ok(()), Ok(()), Err(NotDone::Busy)));
+    }
+
+    #[test]
+    fn a_panic_is_the_end_of_its_own_work_alone() {
+        let pool = Pool::new(1, 1, Duration::from_secs(10));
+        let runtime = runtime();
+        assert_eq!(runtime.block_on(pool.run(|| -> u8 { panic!("on purpose") })), Err(NotDone::Broken));
+        assert_eq!(runtime.block_on(pool.run(|| 1)), Ok(1));
+    }
+}
