@@ -13,8 +13,11 @@ use crate::work::NotDone;
 pub(crate) const MEDIA: &str = "application/problem+json";
 
 /// What was not done, and why.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem(Box<Body>);
+
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Problem {
+struct Body {
     /// The name of its kind.
     #[serde(rename = "type")]
     kind: String,
@@ -59,7 +62,7 @@ const FAULT: Kind = ("fault", StatusCode::INTERNAL_SERVER_ERROR, "a fault of the
 
 impl Problem {
     fn of((name, status, title): Kind, detail: impl Into<String>) -> Problem {
-        Problem {
+        Problem(Box::new(Body {
             kind: format!("urn:ncc:problem:{name}"),
             title,
             status: status.as_u16(),
@@ -68,12 +71,18 @@ impl Problem {
             diagnostics: None,
             messages: None,
             retry_after: (status == StatusCode::SERVICE_UNAVAILABLE).then_some(1),
-        }
+        }))
+    }
+
+    /// With what is wrong with a program or a profile.
+    fn found(mut self, diagnostics: Option<Value>) -> Problem {
+        self.0.diagnostics = diagnostics;
+        self
     }
 
     /// With what to do.
     pub(crate) fn help(mut self, help: impl Into<String>) -> Problem {
-        self.help.push(help.into());
+        self.0.help.push(help.into());
         self
     }
 
@@ -84,7 +93,7 @@ impl Problem {
 
     /// Whether nothing is kept under the name.
     pub(crate) fn is_absent(&self) -> bool {
-        self.status == StatusCode::NOT_FOUND.as_u16()
+        self.0.status == StatusCode::NOT_FOUND.as_u16()
     }
 
     /// The request is not of the form.
@@ -113,18 +122,19 @@ impl Problem {
         diagnostics: Option<Value>,
         messages: String,
     ) -> Problem {
-        let messages = Some(messages).filter(|text| !text.is_empty());
-        Problem { diagnostics, messages, ..Problem::of(REFUSED, detail) }
+        let mut refused = Problem::of(REFUSED, detail).found(diagnostics);
+        refused.0.messages = Some(messages).filter(|text| !text.is_empty());
+        refused
     }
 
     /// The output cannot be made of what is stored.
     pub(crate) fn not_made(detail: impl Into<String>, diagnostics: Option<Value>) -> Problem {
-        Problem { diagnostics, ..Problem::of(NOT_MADE, detail) }
+        Problem::of(NOT_MADE, detail).found(diagnostics)
     }
 
     /// The body has faults, each with its place.
     pub(crate) fn faulty(detail: impl Into<String>, diagnostics: Value) -> Problem {
-        Problem { diagnostics: Some(diagnostics), ..Problem::of(CONTENT, detail) }
+        Problem::of(CONTENT, detail).found(Some(diagnostics))
     }
 
     /// The name is taken.
@@ -199,11 +209,11 @@ impl From<StoreError> for Problem {
 
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
-        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
-        let mut body = serde_json::to_vec_pretty(&self).unwrap_or_default();
+        let status = StatusCode::from_u16(self.0.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let mut body = serde_json::to_vec_pretty(&self.0).unwrap_or_default();
         body.push(b'\n');
         let mut answer = (status, [(CONTENT_TYPE, MEDIA)], body).into_response();
-        if let Some(seconds) = self.retry_after {
+        if let Some(seconds) = self.0.retry_after {
             answer.headers_mut().insert(RETRY_AFTER, HeaderValue::from(seconds));
         }
         answer
