@@ -12,7 +12,6 @@
 pub mod args;
 pub mod batch;
 pub mod check;
-pub mod dictionary_test;
 pub mod doctor;
 pub mod files;
 pub mod fmt;

@@ -29,13 +29,11 @@ use crate::milling::{self, Voice};
 use crate::print_after::print_after;
 use crate::provenance::why;
 use crate::registry::recognised::{doubt_dialect, recognise_all};
-use crate::registry::{self, DialectRegistry};
+use crate::registry::{self, DialectRegistry, dictionary_test};
 use crate::report::tell;
 use crate::target_options::TargetOptions;
 use crate::time::running::Running;
-use crate::{
-    batch, check, dictionary_test, doctor, fmt, listing, machines, plot, project, review, simulate, time,
-};
+use crate::{batch, check, doctor, fmt, listing, machines, plot, project, review, simulate, time};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -452,7 +450,7 @@ fn choice(color: Color) -> ColorChoice {
     if wanted { ColorChoice::Always } else { ColorChoice::Never }
 }
 
-pub(crate) fn print(text: &str) -> Result<(), Problem> {
+fn print(text: &str) -> Result<(), Problem> {
     files::to_stdout(&mut |out| out.write_all(text.as_bytes()))
 }
 

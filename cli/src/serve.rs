@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use ncc_driver::problem::Problem;
 use ncc_service::{OpenError, Part, Service};
 
-use crate::run::print;
+use crate::files;
 
 /// `ncc serve`.
 #[derive(Debug, Args)]
@@ -90,6 +90,6 @@ pub fn run(args: &Serve) -> Result<(), Problem> {
             help: vec!["name another file: --database FILE".to_owned()],
         },
     })?;
-    print(&format!("{}\n", service.address()))?;
+    files::to_stdout(&mut |out| writeln!(out, "{}", service.address()))?;
     service.serve().map_err(|error| Problem::file("serve", &args.listen.to_string(), &error))
 }

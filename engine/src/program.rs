@@ -206,7 +206,8 @@ pub(crate) fn settings(
 
 /// Where the tool stands before the first block.
 pub(crate) fn stands(start: Option<&str>) -> Result<[Option<Nanos>; AXES], Problem> {
-    let read = start.map(|text| position(text).map_err(|why| RequestFault::Start(text.to_owned(), why)));
+    let read =
+        start.map(|text| position(text).map_err(|why| RequestFault::Start(text.to_owned(), why.words())));
     Ok(read.transpose()?.unwrap_or_default())
 }
 

@@ -30,7 +30,7 @@ pub struct Reading {
 pub struct StartPosition {
     /// Where the tool stands before the first block, in program coordinates, mm and degrees:
     /// `X-9,Y15.588,Z3`
-    #[arg(long, value_name = "AXES", value_parser = position, allow_hyphen_values = true)]
+    #[arg(long, value_name = "AXES", value_parser = start, allow_hyphen_values = true)]
     pub start: Option<Start>,
 }
 
@@ -157,6 +157,10 @@ impl Verbosity {
             (false, false) => Loudness::Usual,
         }
     }
+}
+
+fn start(text: &str) -> Result<Start, String> {
+    position(text).map_err(|wrong| wrong.words())
 }
 
 fn tool_change_on(text: &str) -> Result<ToolChangeOn, String> {

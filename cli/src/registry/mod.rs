@@ -3,6 +3,7 @@
 //! A dictionary of a shop lives as long as the process, as the built-in ones do. What is wrong with it
 //! is reported here, at its place in the file. Not here: what a dictionary means.
 
+pub mod dictionary_test;
 pub(crate) mod recognised;
 
 use std::ffi::OsString;

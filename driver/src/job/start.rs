@@ -15,6 +15,7 @@ use ncc_passes::Legaliser;
 
 use super::Job;
 use super::initial_variables::{InitialVariables, decimal};
+use crate::problem::problem;
 use crate::render::numbers::signed;
 
 /// What is stated of the start.
@@ -40,22 +41,46 @@ impl Start {
     }
 }
 
+/// Why a text is no position.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoPosition {
+    /// A word does not begin with an axis.
+    NoAxis(String),
+    /// A word has no decimal behind its axis.
+    NoDecimal(String, Axis),
+    /// An axis is given twice.
+    Twice(Axis),
+}
+
+impl NoPosition {
+    /// In words.
+    pub fn words(&self) -> String {
+        let letter = |axis: &Axis| char::from(axis.letter()).to_string();
+        let message = match self {
+            NoPosition::NoAxis(word) => problem("start-axis").text("word", word.as_str()),
+            NoPosition::NoDecimal(word, axis) => {
+                problem("start-decimal").text("word", word.as_str()).text("axis", letter(axis))
+            }
+            NoPosition::Twice(axis) => problem("start-twice").text("axis", letter(axis)),
+        };
+        message.headline()
+    }
+}
+
 /// Reads a position: `X-9,Y15.588,Z3`, mm and degrees; gives nanos, and none of axes that are not named.
 ///
 /// # Errors
-/// What is not of this form, in words.
-pub fn position(text: &str) -> Result<[Option<Nanos>; AXES], String> {
+/// It is not of this form.
+pub fn position(text: &str) -> Result<[Option<Nanos>; AXES], NoPosition> {
     let mut position = [None; AXES];
     for word in text.split(',').map(str::trim) {
         let mut chars = word.chars();
         let axis = chars.next().map(|c| c.to_ascii_uppercase());
         let axis = axis.and_then(|c| u8::try_from(c).ok()).and_then(Axis::from_letter);
-        let axis = axis.ok_or_else(|| format!("`{word}` does not begin with one of X Y Z A B C"))?;
-        let value = decimal(chars.as_str()).ok_or_else(|| {
-            format!("`{word}` is no axis with a decimal, such as {}15.588", axis.letter() as char)
-        })?;
+        let axis = axis.ok_or_else(|| NoPosition::NoAxis(word.to_owned()))?;
+        let value = decimal(chars.as_str()).ok_or_else(|| NoPosition::NoDecimal(word.to_owned(), axis))?;
         if position[axis as usize].replace(value).is_some() {
-            return Err(format!("{} is given twice", axis.letter() as char));
+            return Err(NoPosition::Twice(axis));
         }
     }
     Ok(position)
