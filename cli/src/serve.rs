@@ -27,6 +27,9 @@ pub struct Serve {
     /// The file of the database; it is made where it is not there
     #[arg(long, value_name = "FILE", default_value = "ncc.sqlite")]
     pub database: PathBuf,
+    /// The name under which changes are kept [default: that of the user of this computer]
+    #[arg(long, value_name = "NAME")]
+    pub author: Option<String>,
     /// One of the services alone
     #[arg(long, value_name = "SERVICE")]
     pub only: Option<Only>,
@@ -44,6 +47,13 @@ pub enum Only {
     Persistence,
     /// What is made of a stored document
     Output,
+}
+
+/// The name under which changes are kept.
+fn author(args: &Serve) -> String {
+    let of_the_computer = || ["USER", "USERNAME"].iter().find_map(|name| std::env::var(name).ok());
+    let name = args.author.clone().or_else(of_the_computer).filter(|name| !name.is_empty());
+    name.unwrap_or_else(|| "unknown".to_owned())
 }
 
 /// Which services the command line asks for.
@@ -75,7 +85,7 @@ fn part(args: &Serve) -> Result<Part, Problem> {
 /// # Errors
 /// Wrong usage, an address that is taken, a database that cannot be used, or the network.
 pub fn run(args: &Serve) -> Result<(), Problem> {
-    let service = Service::open(args.listen, &part(args)?).map_err(|error| match error {
+    let service = Service::open(args.listen, &part(args)?, &author(args)).map_err(|error| match error {
         OpenError::NotThisComputer => Problem::usage(
             format!("{} is no address of this computer alone", args.listen),
             "there are no logins yet, so it answers this computer only: --listen 127.0.0.1:8274",

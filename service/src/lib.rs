@@ -3,6 +3,7 @@
 //! | addresses | what |
 //! |---|---|
 //! | `/transpiler`, `/persistence`, `/output` | the services of the case study ([`case_study`]) |
+//! | `/api/v1/programs` | programs and their revisions ([`api`]) |
 //! | `/api/v1/machines` | profiles of machines ([`machines`]) |
 //!
 //! One process has all of them ([`Part::All`]), or one of the case study's three, which finds PERSISTENCE over HTTP. No
@@ -11,6 +12,7 @@
 //!
 //! It answers this computer alone, without a login. Not here: the compiler (`ncc_engine`, `ncc_driver`), the command line.
 
+mod api;
 mod case_study;
 mod http;
 mod log;
@@ -88,6 +90,8 @@ struct Shared {
     pool: Pool,
     /// Bytes of a program and of a document at most.
     largest: u64,
+    /// Who makes the changes: without a login, there is one user.
+    author: String,
 }
 
 impl Shared {
@@ -130,11 +134,11 @@ pub struct Service {
 }
 
 impl Service {
-    /// Listens on an address of this computer; port 0 is any that is free.
+    /// Listens on an address of this computer; port 0 is any that is free. Changes are `author`'s.
     ///
     /// # Errors
     /// It is no address of this computer, it is taken, or the database cannot be used.
-    pub fn open(listen: SocketAddr, part: &Part) -> Result<Service, OpenError> {
+    pub fn open(listen: SocketAddr, part: &Part, author: &str) -> Result<Service, OpenError> {
         if !listen.ip().is_loopback() {
             return Err(OpenError::NotThisComputer);
         }
@@ -150,7 +154,8 @@ impl Service {
                 case_study::transpiler()
                     .merge(case_study::persistence())
                     .merge(case_study::output())
-                    .merge(machines::routes()),
+                    .merge(machines::routes())
+                    .merge(api::routes()),
                 None,
             ),
             Part::Persistence { .. } => (case_study::persistence().merge(machines::routes()), None),
@@ -163,7 +168,7 @@ impl Service {
         let here = listener.local_addr().map_err(OpenError::Address)?;
         let threads = std::thread::available_parallelism().map_or(2, usize::from);
         let pool = Pool::new(threads, WAITING, LIMIT);
-        let shared = Arc::new(Shared { shelf, own, pool, largest: LARGEST });
+        let shared = Arc::new(Shared { shelf, own, pool, largest: LARGEST, author: author.to_owned() });
         Ok(Service { listener, here, routes, shared, threads })
     }
 

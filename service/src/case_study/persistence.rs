@@ -17,14 +17,11 @@ use serde_json::json;
 use super::document::{self, AFTER, BEFORE, CMF, CMF_REFUSED, WHOLE_MEDIA, Whole};
 use super::shelf::{Found, whole};
 use crate::Shared;
-use crate::http::body::{self, encoded};
+use crate::http::body::{self, LISTED, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
 use crate::store::Parts;
-
-/// Documents of a list without `limit`, and at most.
-const LISTED: [u32; 2] = [100, 1000];
 
 /// The form in which a payload is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

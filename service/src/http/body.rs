@@ -8,6 +8,9 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::Problem;
 
+/// Entries of a list without `limit`, and at most.
+pub(crate) const LISTED: [u32; 2] = [100, 1000];
+
 /// Bytes of a name at most.
 const NAME: usize = 255;
 

@@ -54,6 +54,7 @@ const NOT_MADE: Kind = ("not-made", StatusCode::UNPROCESSABLE_ENTITY, "this outp
 const TOO_LONG: Kind = ("too-long", StatusCode::UNPROCESSABLE_ENTITY, "the program takes too long");
 const STRANGER: Kind = ("stranger", StatusCode::FORBIDDEN, "the request is not meant for this server");
 const METHOD: Kind = ("method", StatusCode::METHOD_NOT_ALLOWED, "the address does not take this method");
+const REUSED: Kind = ("reused", StatusCode::UNPROCESSABLE_ENTITY, "the key was used for another request");
 const FULL: Kind = ("full", StatusCode::INSUFFICIENT_STORAGE, "the disk is full");
 const BUSY: Kind = ("busy", StatusCode::SERVICE_UNAVAILABLE, "too much is asked at once");
 const OTHER: Kind =
@@ -196,6 +197,9 @@ impl From<StoreError> for Problem {
             StoreError::Exists => Problem::of(EXISTS, "POST makes new ones only").help("PUT replaces it"),
             StoreError::Changed => {
                 Problem::of(CHANGED, "another request has changed it").help("read it again")
+            }
+            StoreError::Reused => {
+                Problem::of(REUSED, "Idempotency-Key").help("give each request a key of its own")
             }
             StoreError::Full => Problem::of(FULL, "nothing was changed"),
             StoreError::Busy => Problem::of(BUSY, "the database is taken by others").help("ask again later"),

@@ -8,7 +8,8 @@ use rusqlite::{Connection, TransactionBehavior};
 use super::StoreError;
 
 /// The steps, in their order.
-const STEPS: &[&str] = &[include_str!("migrations/001-documents.sql")];
+const STEPS: &[&str] =
+    &[include_str!("migrations/001-documents.sql"), include_str!("migrations/002-programs.sql")];
 
 /// The mark of ncc: `ncc1` in ASCII.
 const MARK: i32 = 0x6e63_6331;

@@ -1,12 +1,14 @@
 //! What the service keeps, in a database.
 //!
-//! `database` is the one way to it, `documents` and `machines` are what is kept. Every change is one transaction: it is
+//! `database` is the one way to it; `documents`, `machines`, `programs` and their `contents` are what is kept. Every change is one transaction: it is
 //! there as a whole, or not at all. Not here: what a document says, and HTTP.
 
+mod contents;
 mod database;
 mod documents;
 mod machines;
 mod migrations;
+mod programs;
 
 use std::fmt;
 use std::path::Path;
@@ -15,8 +17,10 @@ use sha2::{Digest, Sha256};
 
 use self::database::Database;
 
+pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::machines::Machine;
+pub(crate) use self::programs::{Details, Once, Revision, Said, Wanted};
 
 /// Why the store did not do something.
 #[derive(Debug)]
@@ -27,6 +31,8 @@ pub(crate) enum StoreError {
     Exists,
     /// It is not what the writer has read.
     Changed,
+    /// The key of a request that may be sent again was used for another request.
+    Reused,
     /// The disk is full.
     Full,
     /// Others write: it did not get its turn in time.
@@ -41,6 +47,7 @@ impl fmt::Display for StoreError {
             StoreError::Absent => out.write_str("nothing has this name"),
             StoreError::Exists => out.write_str("the name is taken"),
             StoreError::Changed => out.write_str("it has been changed meanwhile"),
+            StoreError::Reused => out.write_str("the key was used for another request"),
             StoreError::Full => out.write_str("the disk is full"),
             StoreError::Busy => out.write_str("others write for too long"),
             StoreError::Database(words) => out.write_str(words),
@@ -61,7 +68,9 @@ impl Store {
     /// # Errors
     /// It is no database of ncc, one of a later ncc, or cannot be written.
     pub(crate) fn open(file: &Path) -> Result<Store, StoreError> {
-        Ok(Store { database: Database::open(file)? })
+        let store = Store { database: Database::open(file)? };
+        store.tidy()?;
+        Ok(store)
     }
 }
 
@@ -72,5 +81,10 @@ pub(crate) fn digest(pieces: &[&[u8]]) -> String {
         digest.update((piece.len() as u64).to_le_bytes());
         digest.update(piece);
     }
-    digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    hex(&digest.finalize())
+}
+
+/// Bytes in hexadecimal digits.
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

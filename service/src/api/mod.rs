@@ -1,0 +1,43 @@
+//! Programs of a shop, and their revisions.
+//!
+//! ```text
+//! POST   /api/v1/programs?folder=F&name=N       a new program; the body is its text
+//! GET    /api/v1/programs                       programs by folder, name, tag, dialect, machine
+//! GET    /api/v1/programs/ID                    what is known of one
+//! PATCH  /api/v1/programs/ID                    its folder, name, tags, dialect, machine
+//! DELETE /api/v1/programs/ID                    its revisions stay
+//! GET    /api/v1/programs/ID/text, PUT          its text
+//! GET    /api/v1/programs/ID/revisions          its history, the newest first
+//! GET    /api/v1/programs/ID/revisions/N        what was known of it then
+//! GET    /api/v1/programs/ID/revisions/N/text   its text then
+//! POST   /api/v1/programs/ID/revisions/N/restore
+//! ```
+//!
+//! Every change makes a revision, so nothing is overwritten. The tag of a program is the number of its revision.
+
+mod document;
+mod programs;
+mod revisions;
+mod texts;
+
+use std::sync::Arc;
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::routing::{get, post};
+
+use crate::Shared;
+
+/// Addresses of programs.
+pub(crate) fn routes() -> Router<Arc<Shared>> {
+    Router::new()
+        .route("/api/v1/programs", get(programs::list).post(programs::create))
+        .route("/api/v1/programs/{id}", get(programs::read).patch(programs::change).delete(programs::delete))
+        .route("/api/v1/programs/{id}/text", get(texts::read).put(texts::change))
+        .route("/api/v1/programs/{id}/revisions", get(revisions::list))
+        .route("/api/v1/programs/{id}/revisions/{number}", get(revisions::read))
+        .route("/api/v1/programs/{id}/revisions/{number}/text", get(texts::read_revision))
+        .route("/api/v1/programs/{id}/revisions/{number}/restore", post(revisions::restore))
+        // Texts come in pieces, and are counted as they come.
+        .layer(DefaultBodyLimit::disable())
+}

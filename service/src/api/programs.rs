@@ -1,0 +1,239 @@
+//! Programs: made, listed, described, deleted.
+
+use std::sync::Arc;
+
+use axum::body::{Body, Bytes};
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{Path, RawQuery, State};
+use axum::http::HeaderMap;
+use axum::response::Response;
+use serde::{Deserialize, Deserializer};
+use serde_json::{Value, json};
+
+use super::document::{changed, details, dialect, document, folder, machine, message_fits, said, tags, told};
+use super::texts::receive;
+use crate::Shared;
+use crate::http::body::{self, LISTED};
+use crate::http::conditions::expected;
+use crate::http::query::Query;
+use crate::http::{self, Problem};
+use crate::store::{Details, Once, Said, Wanted, digest};
+
+/// The header of a request that may be sent again.
+const KEY: &str = "idempotency-key";
+
+/// Bytes of a description at most.
+const DESCRIPTION: u64 = 1 << 16;
+
+/// The key of a request that may be sent again.
+fn once(headers: &HeaderMap, asked: &str) -> Result<Option<Once>, Problem> {
+    let Some(key) = headers.get(KEY) else { return Ok(None) };
+    let key = key.to_str().ok().filter(|key| (1..=255).contains(&key.len()));
+    let form = || Problem::request("Idempotency-Key has 1 to 255 signs of ASCII");
+    Ok(Some(Once { key: key.ok_or_else(form)?.to_owned(), request: digest(&[asked.as_bytes()]) }))
+}
+
+/// Keeps a new program.
+pub(super) async fn create(
+    State(shared): State<Arc<Shared>>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+    body: Body,
+) -> Result<Response, Problem> {
+    let asked = query.unwrap_or_default();
+    let once = once(&headers, &asked)?;
+    let mut query = Query::of(Some(&asked));
+    let details = details(&mut query)?;
+    let said = said(&mut query, &shared.author)?;
+    query.end("name, folder, dialect, machine, tag, message")?;
+    let text = receive(&shared, &headers, body).await?;
+    let id = new_id()?;
+    let made = shared
+        .store(move |store| {
+            let aside = text.aside();
+            store.create_program(&id, &details, text, &said, once.as_ref()).or_else(|error| {
+                store.forget(aside)?;
+                Err(error.into())
+            })
+        })
+        .await?;
+    let place = format!("/api/v1/programs/{}", made.program);
+    Ok(changed(&made, Some(place)))
+}
+
+/// A name that no program has: 100 bits by chance.
+fn new_id() -> Result<String, Problem> {
+    const SIGNS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstvwxyz";
+    let mut bytes = [0_u8; 20];
+    getrandom::fill(&mut bytes).map_err(|_| Problem::fault())?;
+    Ok(bytes.iter().map(|byte| char::from(SIGNS[usize::from(byte % 32)])).collect())
+}
+
+/// Lists programs.
+pub(super) async fn list(
+    State(shared): State<Arc<Shared>>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::of(query.as_deref());
+    let top = |folders: Vec<String>| folders.into_iter().next();
+    let wanted = Wanted {
+        folder: top(query.all("folder")),
+        under: query.one("under")?,
+        name: query.one("name")?,
+        tag: query.one("tag")?,
+        dialect: query.one("dialect")?,
+        machine: query.one("machine")?,
+        deleted: query.among("deleted", &[("true", true), ("false", false)])?.unwrap_or(false),
+        after: query.one("after")?,
+        most: query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]),
+    };
+    query.end("folder, under, name, tag, dialect, machine, deleted, after, limit")?;
+    let most = wanted.most as usize;
+    let listed = shared.store(move |store| Ok(store.programs(&wanted)?)).await?;
+    let next = listed.last().filter(|_| listed.len() == most).map(|last| last.program.clone());
+    let programs: Vec<Value> = listed.iter().map(document).collect();
+    Ok(http::json(&json!({ "programs": programs, "next": next })))
+}
+
+/// Tells of a program.
+pub(super) async fn read(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let found = shared.store(move |store| Ok(store.program(&id)?)).await?;
+    Ok(told(&found, &headers))
+}
+
+/// What is to be said of a program (RFC 7396): what is left out stays, `null` takes it away.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Patch {
+    #[serde(deserialize_with = "stated")]
+    folder: Option<Option<String>>,
+    name: Option<String>,
+    #[serde(deserialize_with = "stated")]
+    dialect: Option<Option<String>>,
+    #[serde(deserialize_with = "stated")]
+    machine: Option<Option<String>>,
+    #[serde(deserialize_with = "stated")]
+    tags: Option<Option<Vec<String>>>,
+    message: String,
+}
+
+/// A field that is there, whatever it holds.
+fn stated<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(from).map(Some)
+}
+
+impl Patch {
+    fn read(text: &[u8]) -> Result<Patch, Problem> {
+        let mut patch: Patch =
+            serde_json::from_slice(text).map_err(|error| Problem::content(error.to_string()))?;
+        message_fits(&patch.message)?;
+        patch.name.as_deref().map_or(Ok(""), body::name)?;
+        let text = |field: &Option<Option<String>>| field.clone().flatten().unwrap_or_default();
+        folder(&text(&patch.folder))?;
+        dialect(&text(&patch.dialect))?;
+        machine(&text(&patch.machine))?;
+        patch.tags = patch.tags.map(|own| own.map(tags).transpose()).transpose()?;
+        Ok(patch)
+    }
+
+    fn put(self, details: &mut Details) {
+        details.name = self.name.unwrap_or_else(|| std::mem::take(&mut details.name));
+        for (field, own) in [
+            (self.folder, &mut details.folder),
+            (self.dialect, &mut details.dialect),
+            (self.machine, &mut details.machine),
+        ] {
+            if let Some(value) = field {
+                *own = value.unwrap_or_default();
+            }
+        }
+        if let Some(tags) = self.tags {
+            details.tags = tags.unwrap_or_default();
+        }
+    }
+}
+
+/// Changes what is said of a program.
+pub(super) async fn change(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let over = expected(&headers)?;
+    if !matches!(body::media(&headers).as_deref(), Some("application/json" | "application/merge-patch+json"))
+    {
+        return Err(Problem::media("application/merge-patch+json"));
+    }
+    let text = body::whole(body, DESCRIPTION)?;
+    let mut patch = Patch::read(&text)?;
+    let said = Said { author: shared.author.clone(), message: std::mem::take(&mut patch.message) };
+    let made = shared
+        .store(move |store| Ok(store.change_details(&id, |details| patch.put(details), &said, &over)?))
+        .await?;
+    Ok(changed(&made, None))
+}
+
+/// Deletes a program.
+pub(super) async fn delete(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let mut query = Query::of(query.as_deref());
+    let said = said(&mut query, &shared.author)?;
+    query.end("message")?;
+    let over = expected(&headers)?;
+    let made = shared.store(move |store| Ok(store.delete_program(&id, &said, &over)?)).await?;
+    Ok(changed(&made, None))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_patch_changes_what_it_names() {
+        let before = || Details {
+            folder: "a".into(),
+            name: "n".into(),
+            dialect: "fanuc".into(),
+            machine: "m".into(),
+            tags: vec!["t".into()],
+        };
+        let after = |text: &str| {
+            let mut details = before();
+            Patch::read(text.as_bytes()).expect("a patch").put(&mut details);
+            details
+        };
+        assert_eq!(after("{}"), before());
+        assert_eq!(
+            after(r#"{"machine": null, "tags": ["z", "a", "z"]}"#),
+            Details { machine: String::new(), tags: vec!["a".into(), "z".into()], ..before() }
+        );
+        assert_eq!(
+            after(r#"{"folder": "x/y", "name": "o", "dialect": "haas"}"#),
+            Details { folder: "x/y".into(), name: "o".into(), dialect: "haas".into(), ..before() }
+        );
+        for wrong in
+            ["", "[]", r#"{"name": ""}"#, r#"{"folder": "/a"}"#, r#"{"dialect": "x"}"#, r#"{"nam": "a"}"#]
+        {
+            assert!(Patch::read(wrong.as_bytes()).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn ids_differ() {
+        let [one, other] = [(); 2].map(|()| new_id().expect("chance"));
+        assert!(one.len() == 20 && one != other);
+    }
+}

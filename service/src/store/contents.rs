@@ -1,0 +1,137 @@
+//! Bytes, kept once whoever has them, by their SHA-256.
+//!
+//! They come and go in pieces, so that a large program is never in memory as a whole. Without its digest a content is being
+//! received; what has been left so for a day is thrown away when the store is opened.
+
+use rusqlite::{Connection, OptionalExtension, params};
+use sha2::{Digest, Sha256};
+
+use super::documents::now;
+use super::{Store, StoreError, hex};
+
+/// Bytes of a piece at most.
+pub(crate) const PIECE: usize = 1 << 20;
+
+/// How long a content may take to be received, seconds.
+const DAY: i64 = 86_400;
+
+/// A content that is there as a whole.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Content {
+    pub(super) id: i64,
+    /// SHA-256 in hexadecimal digits.
+    pub(crate) sha256: String,
+    /// Its length.
+    pub(crate) bytes: u64,
+}
+
+/// A content that is being received.
+#[derive(Debug, Default)]
+pub(crate) struct Receiving {
+    id: Option<i64>,
+    pieces: u32,
+    bytes: u64,
+    digest: Sha256,
+    /// What has not been written yet.
+    rest: Vec<u8>,
+}
+
+impl Receiving {
+    /// Bytes so far.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// What has been written of it so far.
+    pub(crate) fn aside(&self) -> Option<i64> {
+        self.id
+    }
+
+    /// Takes bytes, and says whether a piece is full: then [`Store::put_aside`] is called.
+    pub(crate) fn take(&mut self, bytes: &[u8]) -> bool {
+        self.digest.update(bytes);
+        self.bytes += bytes.len() as u64;
+        self.rest.extend_from_slice(bytes);
+        self.rest.len() >= PIECE
+    }
+}
+
+impl Store {
+    /// Writes what has been received.
+    pub(crate) fn put_aside(&self, receiving: &mut Receiving) -> Result<(), StoreError> {
+        self.database.write(|to| write(to, receiving))
+    }
+
+    /// Throws away what has been written of a content that is not wanted ([`Receiving::aside`]).
+    pub(crate) fn forget(&self, aside: Option<i64>) -> Result<(), StoreError> {
+        let Some(id) = aside else { return Ok(()) };
+        self.database.write(|to| {
+            to.execute("DELETE FROM content WHERE id = ?1 AND sha256 IS NULL", [id])?;
+            Ok(())
+        })
+    }
+
+    /// A piece of a content, or none behind the last one.
+    pub(crate) fn piece(&self, content: &Content, number: u32) -> Result<Option<Vec<u8>>, StoreError> {
+        self.database.read(|from| {
+            let mut piece =
+                from.prepare_cached("SELECT bytes FROM content_piece WHERE content = ?1 AND number = ?2")?;
+            Ok(piece.query_row(params![content.id, number], |row| row.get(0)).optional()?)
+        })
+    }
+
+    /// Throws away what was never received as a whole.
+    pub(super) fn tidy(&self) -> Result<(), StoreError> {
+        let before = now() - DAY;
+        self.database.write(|to| {
+            to.execute("DELETE FROM content WHERE sha256 IS NULL AND begun < ?1", [before])?;
+            Ok(())
+        })
+    }
+}
+
+/// Writes what has been received.
+fn write(to: &Connection, receiving: &mut Receiving) -> Result<(), StoreError> {
+    let id = match receiving.id {
+        Some(id) => id,
+        None => to.query_row(
+            "INSERT INTO content (sha256, bytes, begun) VALUES (NULL, 0, ?1) RETURNING id",
+            [now()],
+            |row| row.get(0),
+        )?,
+    };
+    let mut piece =
+        to.prepare_cached("INSERT INTO content_piece (content, number, bytes) VALUES (?1, ?2, ?3)")?;
+    let mut pieces = receiving.pieces;
+    for bytes in receiving.rest.chunks(PIECE) {
+        piece.execute(params![id, pieces, bytes])?;
+        pieces += 1;
+    }
+    (receiving.id, receiving.pieces) = (Some(id), pieces);
+    receiving.rest.clear();
+    Ok(())
+}
+
+/// The content that has been received: the one that is there already, or else this one.
+pub(super) fn settle(to: &Connection, mut receiving: Receiving) -> Result<Content, StoreError> {
+    let sha256 = hex(&std::mem::take(&mut receiving.digest).finalize());
+    let there = to
+        .prepare_cached("SELECT id FROM content WHERE sha256 = ?1")?
+        .query_row([&sha256], |row| row.get::<_, i64>(0))
+        .optional()?;
+    let bytes = receiving.bytes;
+    if let Some(id) = there {
+        if let Some(own) = receiving.id {
+            to.execute("DELETE FROM content WHERE id = ?1", [own])?;
+        }
+        return Ok(Content { id, sha256, bytes });
+    }
+    write(to, &mut receiving)?;
+    // It has been thrown away if it took longer than a day.
+    let id = receiving.id.ok_or(StoreError::Absent)?;
+    let length = i64::try_from(bytes).unwrap_or(i64::MAX);
+    let known = to
+        .prepare_cached("UPDATE content SET sha256 = ?1, bytes = ?2 WHERE id = ?3")?
+        .execute(params![sha256, length, id])?;
+    if known == 1 { Ok(Content { id, sha256, bytes }) } else { Err(StoreError::Absent) }
+}
