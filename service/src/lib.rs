@@ -3,7 +3,7 @@
 //! | addresses | what |
 //! |---|---|
 //! | `/transpiler`, `/persistence`, `/output` | the services of the case study ([`case_study`]) |
-//! | `/api/v1/programs` | programs and their revisions ([`api`]) |
+//! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations ([`api`]) |
 //! | `/api/v1/machines` | profiles of machines ([`machines`]) |
 //!
 //! One process has all of them ([`Part::All`]), or one of the case study's three, which finds PERSISTENCE over HTTP. No
@@ -18,6 +18,7 @@ mod http;
 mod log;
 mod machines;
 mod store;
+mod translating;
 mod work;
 
 use std::io;
@@ -111,6 +112,16 @@ impl Shared {
     ) -> Result<T, Problem> {
         let store = self.own.clone().ok_or_else(Problem::no_address)?;
         tokio::task::spawn_blocking(move || work(&store)).await.unwrap_or_else(|_| Err(Problem::fault()))
+    }
+
+    /// Does work of the compiler with the store of this process, within its limits.
+    async fn compile<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&Store) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let store = self.own.clone().ok_or_else(Problem::no_address)?;
+        let done = self.pool.run(move || work(&store)).await;
+        done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
     }
 
     /// Does work of the compiler, within its limits.

@@ -1,4 +1,4 @@
-//! Programs of a shop, and their revisions.
+//! Programs of a shop, their revisions, and their translations ([`translations`]).
 //!
 //! ```text
 //! POST   /api/v1/programs?folder=F&name=N       a new program; the body is its text
@@ -19,6 +19,7 @@ mod document;
 mod programs;
 mod revisions;
 mod texts;
+mod translations;
 
 use std::sync::Arc;
 
@@ -28,7 +29,7 @@ use axum::routing::{get, post};
 
 use crate::Shared;
 
-/// Addresses of programs.
+/// Addresses of programs and translations.
 pub(crate) fn routes() -> Router<Arc<Shared>> {
     Router::new()
         .route("/api/v1/programs", get(programs::list).post(programs::create))
@@ -38,6 +39,9 @@ pub(crate) fn routes() -> Router<Arc<Shared>> {
         .route("/api/v1/programs/{id}/revisions/{number}", get(revisions::read))
         .route("/api/v1/programs/{id}/revisions/{number}/text", get(texts::read_revision))
         .route("/api/v1/programs/{id}/revisions/{number}/restore", post(revisions::restore))
+        .route("/api/v1/translations", get(translations::list).post(translations::create))
+        .route("/api/v1/translations/{id}", get(translations::read))
+        .route("/api/v1/translations/{id}/{what}", get(translations::outcome))
         // Texts come in pieces, and are counted as they come.
         .layer(DefaultBodyLimit::disable())
 }

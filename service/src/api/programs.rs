@@ -61,8 +61,8 @@ pub(super) async fn create(
     Ok(changed(&made, Some(place)))
 }
 
-/// A name that no program has: 100 bits by chance.
-fn new_id() -> Result<String, Problem> {
+/// A name that nothing else has: 100 bits by chance.
+pub(super) fn new_id() -> Result<String, Problem> {
     const SIGNS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstvwxyz";
     let mut bytes = [0_u8; 20];
     getrandom::fill(&mut bytes).map_err(|_| Problem::fault())?;

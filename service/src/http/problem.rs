@@ -32,6 +32,9 @@ struct Body {
     /// What is wrong with the program: as in a line of `ncc --format json`.
     #[serde(skip_serializing_if = "Option::is_none")]
     diagnostics: Option<Value>,
+    /// Questions that are open, with their answers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    questions: Option<Value>,
     /// The same as the command line prints it.
     #[serde(skip_serializing_if = "Option::is_none")]
     messages: Option<String>,
@@ -70,6 +73,7 @@ impl Problem {
             detail: detail.into(),
             help: Vec::new(),
             diagnostics: None,
+            questions: None,
             messages: None,
             retry_after: (status == StatusCode::SERVICE_UNAVAILABLE).then_some(1),
         }))
@@ -85,6 +89,17 @@ impl Problem {
     pub(crate) fn help(mut self, help: impl Into<String>) -> Problem {
         self.0.help.push(help.into());
         self
+    }
+
+    /// With questions that are open.
+    pub(crate) fn asking(mut self, questions: Option<Value>) -> Problem {
+        self.0.questions = questions;
+        self
+    }
+
+    /// Whether the request is not of the form.
+    pub(crate) fn is_request(&self) -> bool {
+        self.0.status == StatusCode::BAD_REQUEST.as_u16()
     }
 
     /// Nothing is kept under a name.

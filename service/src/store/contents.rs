@@ -80,6 +80,20 @@ impl Store {
         })
     }
 
+    /// A content as a whole.
+    pub(crate) fn whole(&self, content: &Content) -> Result<Vec<u8>, StoreError> {
+        self.database.read(|from| {
+            let mut pieces =
+                from.prepare_cached("SELECT bytes FROM content_piece WHERE content = ?1 ORDER BY number")?;
+            let mut whole = Vec::with_capacity(usize::try_from(content.bytes).unwrap_or_default());
+            let mut rows = pieces.query([content.id])?;
+            while let Some(row) = rows.next()? {
+                whole.extend_from_slice(row.get_ref(0)?.as_blob().map_err(rusqlite::Error::from)?);
+            }
+            Ok(whole)
+        })
+    }
+
     /// Throws away what was never received as a whole.
     pub(super) fn tidy(&self) -> Result<(), StoreError> {
         let before = now() - DAY;

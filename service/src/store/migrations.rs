@@ -8,8 +8,11 @@ use rusqlite::{Connection, TransactionBehavior};
 use super::StoreError;
 
 /// The steps, in their order.
-const STEPS: &[&str] =
-    &[include_str!("migrations/001-documents.sql"), include_str!("migrations/002-programs.sql")];
+const STEPS: &[&str] = &[
+    include_str!("migrations/001-documents.sql"),
+    include_str!("migrations/002-programs.sql"),
+    include_str!("migrations/003-translations.sql"),
+];
 
 /// The mark of ncc: `ncc1` in ASCII.
 const MARK: i32 = 0x6e63_6331;

@@ -9,6 +9,7 @@ mod documents;
 mod machines;
 mod migrations;
 mod programs;
+mod translations;
 
 use std::fmt;
 use std::path::Path;
@@ -21,6 +22,7 @@ pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::machines::Machine;
 pub(crate) use self::programs::{Details, Once, Revision, Said, Wanted};
+pub(crate) use self::translations::{Outcome, Translation};
 
 /// Why the store did not do something.
 #[derive(Debug)]

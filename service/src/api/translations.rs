@@ -1,0 +1,144 @@
+//! Translations of programs: made once, kept with their reports, stale when what went in has changed.
+//!
+//! ```text
+//! POST /api/v1/translations                 { "program": ID, "to": "siemens", … }
+//! GET  /api/v1/translations?program=ID      translations, with what is stale of each
+//! GET  /api/v1/translations/ID              one of them
+//! GET  /api/v1/translations/ID/output       its text; also /report, /map, /certificate
+//! ```
+
+use std::sync::Arc;
+
+use axum::body::Bytes;
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{Path, RawQuery, State};
+use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Response};
+use serde_json::{Value, json};
+
+use super::programs::new_id;
+use crate::Shared;
+use crate::http::body::{self, LISTED};
+use crate::http::conditions::{etag, is_known, not_modified};
+use crate::http::query::Query;
+use crate::http::{self, Problem};
+use crate::store::{Outcome, Store, Translation};
+use crate::translating::{Asked, certificate, stale, translate};
+
+/// Bytes of a request at most.
+const REQUEST: u64 = 1 << 16;
+
+/// What is told of a translation.
+fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
+    let asked: Value = serde_json::from_str(&of.asked).unwrap_or_default();
+    let asked: Value = asked
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter(|(_, value)| !value.is_null() && *value != &json!({}) && *value != &json!(false))
+        .map(|(name, value)| (name.clone(), value.clone()))
+        .collect::<serde_json::Map<_, _>>()
+        .into();
+    let inputs: Value = serde_json::from_str(&of.inputs).unwrap_or_default();
+    Ok(json!({
+        "id": of.id,
+        "program": of.program,
+        "revision": of.revision,
+        "asked": asked,
+        "inputs": inputs,
+        "stale": stale(store, of)?,
+        "author": of.author,
+        "made": http::moment(of.made),
+    }))
+}
+
+/// Translates a program.
+pub(super) async fn create(
+    State(shared): State<Arc<Shared>>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    if body::media(&headers).as_deref() != Some("application/json") {
+        return Err(Problem::media("application/json"));
+    }
+    let text = body::whole(body, REQUEST)?;
+    let asked: Asked = serde_json::from_slice(&text).map_err(|error| Problem::content(error.to_string()))?;
+    let (id, author) = (new_id()?, shared.author.clone());
+    let (document, place, is_new) = shared
+        .compile(move |store| {
+            let (made, is_new) = translate(store, asked, id, &author)?;
+            Ok((document(store, &made)?, format!("/api/v1/translations/{}", made.id), is_new))
+        })
+        .await?;
+    let status = if is_new { StatusCode::CREATED } else { StatusCode::OK };
+    Ok((status, [(LOCATION, place)], http::json(&document)).into_response())
+}
+
+/// Lists translations.
+pub(super) async fn list(
+    State(shared): State<Arc<Shared>>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::of(query.as_deref());
+    let program = query.one("program")?;
+    let after = query.one("after")?.unwrap_or_default();
+    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    query.end("program, after, limit")?;
+    let (all, next) = shared
+        .store(move |store| {
+            let all = store.translations(program.as_deref(), &after, most)?;
+            let next = all.last().filter(|_| all.len() == most as usize).map(|last| last.id.clone());
+            let all = all.iter().map(|own| document(store, own)).collect::<Result<Vec<_>, _>>()?;
+            Ok((all, next))
+        })
+        .await?;
+    Ok(http::json(&json!({ "translations": all, "next": next })))
+}
+
+/// Tells of a translation. It has no tag: what is stale changes with others.
+pub(super) async fn read(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let found = shared.store(move |store| document(store, &store.translation(&id)?)).await?;
+    Ok(http::json(&found))
+}
+
+/// Gives what came out of a translation.
+pub(super) async fn outcome(
+    State(shared): State<Arc<Shared>>,
+    Path((id, what)): Path<(String, String)>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let (outcome, media) = match what.as_str() {
+        "output" => (Outcome::Output, "text/plain"),
+        "report" => (Outcome::Report, "application/json"),
+        "map" => (Outcome::Map, "application/json"),
+        "certificate" => (Outcome::Certificate, "application/json"),
+        _ => return Err(Problem::no_address()),
+    };
+    let tag = etag(&id, &what);
+    if is_known(&headers, &tag) {
+        return Ok(not_modified(tag));
+    }
+    let bytes = match outcome {
+        Outcome::Certificate => {
+            shared.compile(move |store| certificate(store, &store.translation(&id)?)).await?
+        }
+        Outcome::Output | Outcome::Report | Outcome::Map => {
+            let whole = move |store: &Store| {
+                let found = store.outcome(&id, outcome)?;
+                Ok(found.map(|content| store.whole(&content)).transpose()?.unwrap_or_default())
+            };
+            shared.store(whole).await?
+        }
+    };
+    Ok(([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], bytes).into_response())
+}

@@ -1,0 +1,168 @@
+//! Translations of programs. What went in and what came out of one is never changed.
+
+use rusqlite::{Connection, OptionalExtension, Row, params};
+
+use super::contents::{Content, Receiving, settle};
+use super::documents::now;
+use super::{Store, StoreError};
+
+/// A translation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Translation {
+    /// Its name.
+    pub(crate) id: String,
+    /// A digest of all that went in, but for the programs that it calls.
+    pub(crate) key: String,
+    /// The program.
+    pub(crate) program: String,
+    /// Which of its revisions.
+    pub(crate) revision: i64,
+    /// What was asked, JSON.
+    pub(crate) asked: String,
+    /// Digests of what went in, JSON.
+    pub(crate) inputs: String,
+    /// Who asked first.
+    pub(crate) author: String,
+    /// When it was made, seconds since 1970 (UTC).
+    pub(crate) made: i64,
+}
+
+/// What came out of a translation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// The text.
+    Output,
+    /// What was found, as `ncc --report` writes it.
+    Report,
+    /// For each line of the output the first line of the source that it comes from, or 0: a list, JSON.
+    Map,
+    /// The certificate, once somebody has asked for it.
+    Certificate,
+}
+
+impl Outcome {
+    const fn column(self) -> &'static str {
+        match self {
+            Outcome::Output => "output",
+            Outcome::Report => "report",
+            Outcome::Map => "map",
+            Outcome::Certificate => "certificate",
+        }
+    }
+}
+
+const TRANSLATION: &str = "SELECT id, key, program, revision, asked, inputs, author, made FROM translation";
+
+fn read(row: &Row) -> rusqlite::Result<Translation> {
+    Ok(Translation {
+        id: row.get(0)?,
+        key: row.get(1)?,
+        program: row.get(2)?,
+        revision: row.get(3)?,
+        asked: row.get(4)?,
+        inputs: row.get(5)?,
+        author: row.get(6)?,
+        made: row.get(7)?,
+    })
+}
+
+fn keep(to: &Connection, bytes: &[u8]) -> Result<i64, StoreError> {
+    let mut text = Receiving::default();
+    text.take(bytes);
+    Ok(settle(to, text)?.id)
+}
+
+impl Store {
+    /// Keeps a translation; those that have been made of the same are given in its place.
+    pub(crate) fn keep_translation(
+        &self,
+        made: &Translation,
+        [output, report, map]: [&[u8]; 3],
+    ) -> Result<Translation, StoreError> {
+        self.database.write(|to| {
+            let same = format!("{TRANSLATION} WHERE key = ?1 AND inputs = ?2");
+            let there = to.query_row(&same, params![made.key, made.inputs], read).optional()?;
+            if let Some(there) = there {
+                return Ok(there);
+            }
+            let made = Translation { made: now(), ..made.clone() };
+            let [output, report, map] = [output, report, map].map(|bytes| keep(to, bytes));
+            to.execute(
+                "INSERT INTO translation (id, key, program, revision, asked, inputs, output, report, map, author, made)
+                 VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
+                params![
+                    made.id,
+                    made.key,
+                    made.program,
+                    made.revision,
+                    made.asked,
+                    made.inputs,
+                    output?,
+                    report?,
+                    map?,
+                    made.author,
+                    made.made
+                ],
+            )?;
+            Ok(made)
+        })
+    }
+
+    /// Translations of which the same went in, but for the programs that they call.
+    pub(crate) fn same_translations(&self, key: &str) -> Result<Vec<Translation>, StoreError> {
+        self.database.read(|from| {
+            let mut all = from.prepare_cached(&format!("{TRANSLATION} WHERE key = ?1 ORDER BY made DESC"))?;
+            let rows = all.query_map([key], read)?;
+            Ok(rows.collect::<Result<_, _>>()?)
+        })
+    }
+
+    /// A translation.
+    pub(crate) fn translation(&self, id: &str) -> Result<Translation, StoreError> {
+        self.database.read(|from| {
+            let mut one = from.prepare_cached(&format!("{TRANSLATION} WHERE id = ?1"))?;
+            Ok(one.query_row([id], read)?)
+        })
+    }
+
+    /// Translations of a program, or all, in the order of their names; those after a name, so many at most.
+    pub(crate) fn translations(
+        &self,
+        program: Option<&str>,
+        after: &str,
+        most: u32,
+    ) -> Result<Vec<Translation>, StoreError> {
+        self.database.read(|from| {
+            let mut all = from.prepare_cached(&format!(
+                "{TRANSLATION} WHERE (?1 IS NULL OR program = ?1) AND id > ?2 ORDER BY id LIMIT ?3"
+            ))?;
+            let rows = all.query_map(params![program, after, most], read)?;
+            Ok(rows.collect::<Result<_, _>>()?)
+        })
+    }
+
+    /// What came out of a translation; none of a certificate that nobody has asked for.
+    pub(crate) fn outcome(&self, id: &str, outcome: Outcome) -> Result<Option<Content>, StoreError> {
+        self.database.read(|from| {
+            let column = outcome.column();
+            let sql = format!(
+                "SELECT c.id, c.sha256, c.bytes FROM translation t LEFT JOIN content c ON c.id = t.{column} WHERE t.id = ?1"
+            );
+            let mut one = from.prepare_cached(&sql)?;
+            Ok(one.query_row([id], |row| {
+                let (content, sha256): (Option<i64>, Option<String>) = (row.get(0)?, row.get(1)?);
+                let bytes = row.get::<_, Option<i64>>(2)?.unwrap_or_default().unsigned_abs();
+                Ok(content.zip(sha256).map(|(id, sha256)| Content { id, sha256, bytes }))
+            })?)
+        })
+    }
+
+    /// Keeps a certificate with its translation.
+    pub(crate) fn keep_certificate(&self, id: &str, text: &[u8]) -> Result<(), StoreError> {
+        self.database.write(|to| {
+            let content = keep(to, text)?;
+            to.execute("UPDATE translation SET certificate = ?2 WHERE id = ?1", params![id, content])?;
+            Ok(())
+        })
+    }
+}
