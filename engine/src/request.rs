@@ -23,6 +23,9 @@ pub enum Request {
     /// Executes a program with a clock. Outputs: `times` (the document of `ncc time --as payload`), `findings` if they are
     /// wanted, `messages`.
     Time(Time),
+    /// Executes a program with a clock, and sums up. Outputs: `document` (as of `ncc time --as json`), `tools` (as of `ncc time
+    /// --as tools`), `messages`.
+    Summary(Summary),
     /// Compares what two programs do. Outputs: `document` (as of `ncc diff --format json`), `messages`.
     Diff(Two),
     /// Compares them as strictly as a translation is verified. Outputs: `document` (the certificate), `messages`.
@@ -196,6 +199,59 @@ impl Time {
             assume_milling: self.assume_milling,
             zero: self.zero,
             ..one(&self.file, [&self.from, &self.machine, &self.project], &self.from_option)
+        }
+    }
+}
+
+/// A program whose times are summed up.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Summary {
+    /// As of [`One`].
+    pub file: String,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from: Option<String>,
+    /// As of [`Time`].
+    #[serde(default)]
+    pub machine: Option<String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub from_option: BTreeMap<String, String>,
+    /// As of [`One`].
+    #[serde(default)]
+    pub assume_milling: bool,
+    /// As of [`Time`].
+    #[serde(default)]
+    pub start: Option<String>,
+    /// As of [`Time`].
+    #[serde(default)]
+    pub model: Option<String>,
+    /// As of [`Time`].
+    #[serde(default)]
+    pub tool_change_on: Option<ToolChangeOn>,
+}
+
+impl Summary {
+    /// The program with its clock.
+    pub(crate) fn time(&self) -> Time {
+        Time {
+            file: self.file.clone(),
+            from: self.from.clone(),
+            machine: self.machine.clone(),
+            project: None,
+            from_option: self.from_option.clone(),
+            units: None,
+            assume_milling: self.assume_milling,
+            zero: None,
+            start: self.start.clone(),
+            start_time: 0.0,
+            model: self.model.clone(),
+            tool_change_on: self.tool_change_on,
+            stage: Stage::After,
+            form: Form::Document,
+            findings: false,
+            most: None,
         }
     }
 }

@@ -1,34 +1,57 @@
 //! A program with a clock.
 //!
-//! Not here: the clock (`ncc_driver::time`), and the form of the document (`ncc_driver::time::payload`).
+//! Not here: the clock (`ncc_driver::time`), and the forms of what is made of it.
 
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::Buffer;
+use ncc_driver::job::Job;
 use ncc_driver::problem::{BrokenOff, Exit, Problem, RequestFault};
 use ncc_driver::render::json::entries;
 use ncc_driver::render::{About, Loudness, human};
 use ncc_driver::side::Side;
-use ncc_driver::time::drive::{Stage, Unwatched, drive};
+use ncc_driver::time::drive::{Course, Plan, Stage, Unwatched, drive};
 use ncc_driver::time::payload::{Fields, Header, Look, Shape, Writer};
-use ncc_time::ToolChangeOn;
+use ncc_driver::time::summary::{Report, Timing};
+use ncc_driver::time::tally::{Tallier, Tally};
+use ncc_driver::time::{assumed, columns};
+use ncc_machines::Profile;
+use ncc_time::{AssumedFact, Model, ToolChangeOn};
 
 use crate::program::{Files, Outputs, machine_for_times, plan, side_on, stands};
-use crate::request::{self, Form, Time};
+use crate::request::{self, Form, Summary, Time};
 
-/// Times a program.
-pub(crate) fn timed(asked: &Time, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
-    let cannot = |e: io::Error| Problem::file("time", &asked.file, &e);
-    let one = asked.one();
-    let profile = machine_for_times(&one, files)?;
-    let Side { mut source, mut job } = side_on(profile.clone(), &one, files, messages)?;
-    job.start = stands(asked.start.as_deref())?;
-    if !(0.0..1e9).contains(&asked.start_time) {
-        return Err(RequestFault::StartTime.into());
+/// A program, ready to be executed with a clock.
+struct Ready {
+    side: Side,
+    profile: Option<Arc<Profile>>,
+    model: Model,
+}
+
+impl Ready {
+    fn of(asked: &Time, files: &Files, messages: &mut Buffer) -> Result<Ready, Problem> {
+        let one = asked.one();
+        let profile = machine_for_times(&one, files)?;
+        let mut side = side_on(profile.clone(), &one, files, messages)?;
+        side.job.start = stands(asked.start.as_deref())?;
+        if !(0.0..1e9).contains(&asked.start_time) {
+            return Err(RequestFault::StartTime.into());
+        }
+        let no_model = |name: &str| RequestFault::NoModel(name.to_owned());
+        let model = asked.model.as_deref().map(|name| name.parse().map_err(|_| no_model(name)));
+        Ok(Ready { side, profile, model: model.transpose()?.unwrap_or_default() })
     }
-    let no_model = |name: &str| RequestFault::NoModel(name.to_owned());
-    let model = asked.model.as_deref().map(|name| name.parse().map_err(|_| no_model(name))).transpose()?;
-    let (mut plan, _) = plan(&job, profile.as_deref(), model.unwrap_or_default());
+}
+
+/// How a program is executed, as it is asked for.
+fn planned<'p>(
+    asked: &Time,
+    job: &'p Job,
+    profile: Option<&Profile>,
+    model: Model,
+) -> (Plan<'p>, Vec<AssumedFact>) {
+    let (mut plan, unstated) = plan(job, profile, model);
     plan.start_time = asked.start_time;
     plan.stage = match asked.stage {
         request::Stage::Before => Stage::Before,
@@ -42,7 +65,15 @@ pub(crate) fn timed(asked: &Time, files: &Files, messages: &mut Buffer) -> Resul
             request::ToolChangeOn::Change => ToolChangeOn::Change,
         };
     }
+    (plan, unstated)
+}
+
+/// Times a program.
+pub(crate) fn timed(asked: &Time, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("time", &asked.file, &e);
+    let Ready { side: Side { mut source, job }, profile, model } = Ready::of(asked, files, messages)?;
     let profile = profile.as_deref();
+    let (plan, _) = planned(asked, &job, profile, model);
     let (fields, machine_name) = match asked.form {
         Form::Document => (Fields::Full, profile.map_or("", |profile| &profile.schema.title)),
         Form::Printed => (Fields::Printed(job.from.dialect), profile.map_or("", |profile| profile.id())),
@@ -68,6 +99,68 @@ pub(crate) fn timed(asked: &Time, files: &Files, messages: &mut Buffer) -> Resul
         outputs.push(("findings", serde_json::to_vec(&found).unwrap_or_default()));
     }
     Ok((if course.refused { Exit::Refused } else { Exit::Done }, outputs))
+}
+
+/// Times a program and sums up.
+pub(crate) fn summed_up(
+    asked: &Summary,
+    files: &Files,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
+    let cannot = |e: io::Error| Problem::file("time", &asked.file, &e);
+    let asked = asked.time();
+    let Ready { side: Side { mut source, job }, profile, model } = Ready::of(&asked, files, messages)?;
+    let profile = profile.as_deref();
+    let (plan, unstated) = planned(&asked, &job, profile, model);
+    let mut tallier = Tallier::new(&plan.machine);
+    let course = drive(&plan, &mut source, &mut tallier, &mut Unwatched).map_err(cannot)?;
+    let shown = source.shown.clone();
+    let mut about = About { job: &job, name: &shown, source: &mut source.file };
+    human::print(messages, &mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
+    if course.refused {
+        return Ok((Exit::Refused, Vec::new()));
+    }
+    let mut timing = Timing {
+        prog_name: asked.file.clone(),
+        dialect: job.from.dialect.id.clone(),
+        blocks: course.blocks,
+        functions: 0,
+        clock: [plan.start_time, course.end].map(columns::micro),
+        bounds: course.bounds.map(|bounds| bounds.map(columns::micro)),
+        assumed: assumptions(&plan, profile, &unstated, &course),
+        total: Tally::default(),
+        tools: Vec::new(),
+        operations: Vec::new(),
+    };
+    timing.take(tallier.finish());
+    let report = Report {
+        ncc_time: 1,
+        ncc_version: env!("CARGO_PKG_VERSION"),
+        model: model.name(),
+        machine: profile.map(|profile| profile.id().to_owned()),
+        machine_name: profile.map_or_else(String::new, |profile| profile.schema.title.clone()),
+        total: timing.total.clone(),
+        programs: vec![timing],
+        not_timed: Vec::new(),
+    };
+    let (mut document, mut tools) = (Vec::new(), Vec::new());
+    report.json(&mut document).map_err(cannot)?;
+    report.tool_list(&mut tools).map_err(cannot)?;
+    Ok((Exit::Done, vec![("document", document), ("tools", tools)]))
+}
+
+/// What the times assume of machine and control.
+fn assumptions(
+    plan: &Plan,
+    profile: Option<&Profile>,
+    unstated: &[AssumedFact],
+    course: &Course,
+) -> Vec<String> {
+    let mut lines = profile.map(assumed::of_profile).unwrap_or_default();
+    lines.extend(assumed::of_machine(plan, unstated, course));
+    lines.extend(assumed::of_run(plan, course));
+    lines.extend(assumed::of_program(plan.job, &course.diagnostics));
+    lines
 }
 
 /// Bytes in memory up to a number of them: a loop of a few lines can make any number of moves.

@@ -70,6 +70,7 @@ fn verb(
         Request::Translate(asked) => translated(asked, files, messages),
         Request::Check(one) => checked(&simulate::with_datum(one.clone(), files)?, files, messages),
         Request::Time(asked) => time::timed(asked, files, messages),
+        Request::Summary(asked) => time::summed_up(asked, files, messages),
         Request::Diff(two) => differ(two, files, messages),
         Request::Verify(two) => verified(two, files, messages),
         Request::Explain(Explain { code }) => match explain::page(code) {

@@ -96,7 +96,7 @@ struct Made {
 }
 
 /// The profile of a machine, with its digest; one that comes with ncc has no text of its own.
-fn profile(store: &Store, name: &str) -> Result<(Option<String>, String), Problem> {
+pub(crate) fn profile(store: &Store, name: &str) -> Result<(Option<String>, String), Problem> {
     if let Some(text) = ncc_machines::shipped_text(name) {
         return Ok((None, digest(&[text.as_bytes()])));
     }
@@ -284,12 +284,7 @@ fn run(store: &Store, ready: &mut Ready) -> Result<Made, Problem> {
     })
     .to_string();
     let mut engine = engine(ready);
-    let mut code = engine.run(&request);
-    let mut folder = BTreeMap::new();
-    if code != DONE && output(&engine, "messages").contains(NOT_THERE) {
-        folder = with_folder(store, ready, &mut engine)?;
-        code = engine.run(&request);
-    }
+    let (code, folder) = run_with_called(store, &ready.of, &mut engine, &request)?;
     let report = engine.output("report").unwrap_or_default().to_vec();
     let (DONE, Some(text)) = (code, engine.output("output")) else {
         return Err(refusal(&engine, code, &report));
@@ -305,13 +300,29 @@ fn run(store: &Store, ready: &mut Ready) -> Result<Made, Problem> {
     Ok(Made { output: text.to_vec(), report, map: serde_json::to_vec(&lines).unwrap_or_default() })
 }
 
+/// Does a request of a program; where one that it calls is not in its text, again with those of its folder. Gives the code,
+/// and the digests of the programs that stand beside it.
+pub(crate) fn run_with_called(
+    store: &Store,
+    of: &Revision,
+    engine: &mut Engine,
+    request: &str,
+) -> Result<(u8, BTreeMap<String, String>), Problem> {
+    let code = engine.run(request);
+    if code == DONE || !output(engine, "messages").contains(NOT_THERE) {
+        return Ok((code, BTreeMap::new()));
+    }
+    let folder = with_folder(store, of, engine)?;
+    Ok((engine.run(request), folder))
+}
+
 /// Puts the programs of the folder beside the program; gives their digests.
 fn with_folder(
     store: &Store,
-    ready: &Ready,
+    of: &Revision,
     engine: &mut Engine,
 ) -> Result<BTreeMap<String, String>, Problem> {
-    let all = neighbours(store, &ready.of)?;
+    let all = neighbours(store, of)?;
     if all.iter().map(|own| own.content.bytes).sum::<u64>() > FOLDER {
         return Err(Problem::not_made(
             format!("it calls a program, and those of its folder have more than {FOLDER} bytes"),
@@ -330,19 +341,26 @@ fn output(engine: &Engine, name: &str) -> String {
     engine.output(name).map(|text| String::from_utf8_lossy(text).into_owned()).unwrap_or_default()
 }
 
-/// Why there is no translation.
-fn refusal(engine: &Engine, code: u8, report: &[u8]) -> Problem {
+/// Why the engine has not done a request; `report` is that of a translation.
+pub(crate) fn refusal(engine: &Engine, code: u8, report: &[u8]) -> Problem {
     let messages = output(engine, "messages");
     let report: Value = serde_json::from_slice(report).unwrap_or_default();
     let questions = report.get("questions").filter(|all| all.as_array().is_some_and(|all| !all.is_empty()));
     let detail = match (code, questions) {
-        (USAGE, _) => return Problem::request(messages.trim().trim_start_matches("error: ").to_owned()),
+        (USAGE, _) => return usage(&messages),
         (_, Some(_)) => "a question is open: answer it by one of the options that it names",
         (VERIFICATION_FAILED, _) => "the output was not shown to make the same cut: please report it",
-        (_, None) => "it was not translated: the diagnostics say why, and where",
+        (_, None) => "the messages say why, and where",
     };
     let questions = questions.cloned();
     Problem::refused(detail, report.get("diagnostics").cloned(), messages).asking(questions)
+}
+
+/// A request that is not of the form, in the engine's words: `error: …`, and lines of help.
+fn usage(messages: &str) -> Problem {
+    let mut lines = messages.trim().lines().map(str::trim);
+    let detail = lines.next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    lines.fold(Problem::request(detail), |problem, line| problem.help(line.trim_start_matches("help: ")))
 }
 
 /// The certificate of a translation: both programs executed and compared once more.
@@ -365,7 +383,9 @@ pub(crate) fn certificate(store: &Store, of: &Translation) -> Result<Vec<u8>, Pr
         .help("translate the program again"));
     }
     let mut engine = engine(&ready);
-    with_folder_if(store, &ready, &before, &mut engine)?;
+    if !before.called.is_empty() {
+        with_folder(store, &ready.of, &mut engine)?;
+    }
     let text = store.outcome(&of.id, Outcome::Output)?.ok_or(StoreError::Absent)?;
     let translated = format!("{} (translated)", ready.of.details.name);
     engine.put(&translated, store.whole(&text)?);
@@ -396,12 +416,4 @@ pub(crate) fn certificate(store: &Store, of: &Translation) -> Result<Vec<u8>, Pr
     };
     store.keep_certificate(&of.id, document)?;
     Ok(document.to_vec())
-}
-
-/// Puts the programs of the folder beside a program that calls any.
-fn with_folder_if(store: &Store, ready: &Ready, before: &Inputs, engine: &mut Engine) -> Result<(), Problem> {
-    if !before.called.is_empty() {
-        with_folder(store, ready, engine)?;
-    }
-    Ok(())
 }

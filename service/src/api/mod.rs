@@ -11,11 +11,13 @@
 //! GET    /api/v1/programs/ID/revisions/N        what was known of it then
 //! GET    /api/v1/programs/ID/revisions/N/text   its text then
 //! POST   /api/v1/programs/ID/revisions/N/restore
+//! GET    /api/v1/programs/ID/outputs/WHAT       times, tools, checks ([`outputs`])
 //! ```
 //!
 //! Every change makes a revision, so nothing is overwritten. The tag of a program is the number of its revision.
 
 mod document;
+mod outputs;
 mod programs;
 mod revisions;
 mod texts;
@@ -39,6 +41,7 @@ pub(crate) fn routes() -> Router<Arc<Shared>> {
         .route("/api/v1/programs/{id}/revisions/{number}", get(revisions::read))
         .route("/api/v1/programs/{id}/revisions/{number}/text", get(texts::read_revision))
         .route("/api/v1/programs/{id}/revisions/{number}/restore", post(revisions::restore))
+        .route("/api/v1/programs/{id}/outputs/{what}", get(outputs::read))
         .route("/api/v1/translations", get(translations::list).post(translations::create))
         .route("/api/v1/translations/{id}", get(translations::read))
         .route("/api/v1/translations/{id}/{what}", get(translations::outcome))
