@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::http::Problem;
-use crate::store::{Outcome, Revision, Store, StoreError, Translation, Wanted, digest};
+use crate::store::{Outcome, Revision, State, Store, StoreError, Translation, Wanted, digest};
 
 /// Bytes of the programs of a folder that are looked through for called ones, at most.
 const FOLDER: u64 = 64 << 20;
@@ -238,12 +238,19 @@ pub(crate) fn translate(
         revision: ready.of.number,
         asked: serde_json::to_string(&ready.asked).unwrap_or_default(),
         inputs: serde_json::to_string(&ready.inputs).unwrap_or_default(),
+        target: target(&ready.asked),
+        state: State::default(),
         author: author.to_owned(),
         made: 0,
     };
     let kept = store.keep_translation(&record, [&made.output, &made.report, &made.map])?;
     let is_new = kept.id == id;
     Ok((kept, is_new))
+}
+
+/// What a program is translated for: of several translations for one target, one is released.
+fn target(asked: &Asked) -> String {
+    [&asked.machine_to, &asked.to].map(|name| name.clone().unwrap_or_default()).join(" ").trim().to_owned()
 }
 
 /// An engine with the texts of a translation.

@@ -20,6 +20,7 @@ mod document;
 mod outputs;
 mod programs;
 mod revisions;
+mod states;
 mod texts;
 mod translations;
 
@@ -44,6 +45,7 @@ pub(crate) fn routes() -> Router<Arc<Shared>> {
         .route("/api/v1/programs/{id}/outputs/{what}", get(outputs::read))
         .route("/api/v1/translations", get(translations::list).post(translations::create))
         .route("/api/v1/translations/{id}", get(translations::read))
+        .route("/api/v1/translations/{id}/states", get(states::list).post(states::step))
         .route("/api/v1/translations/{id}/{what}", get(translations::outcome))
         // Texts come in pieces, and are counted as they come.
         .layer(DefaultBodyLimit::disable())

@@ -23,14 +23,14 @@ use crate::http::body::{self, LISTED};
 use crate::http::conditions::{etag, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
-use crate::store::{Outcome, Store, Translation};
+use crate::store::{Outcome, State as Wanted, Store, Translation};
 use crate::translating::{Asked, certificate, stale, translate};
 
 /// Bytes of a request at most.
 const REQUEST: u64 = 1 << 16;
 
 /// What is told of a translation.
-fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
+pub(super) fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
     let asked: Value = serde_json::from_str(&of.asked).unwrap_or_default();
     let asked: Value = asked
         .as_object()
@@ -47,6 +47,7 @@ fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
         "revision": of.revision,
         "asked": asked,
         "inputs": inputs,
+        "state": of.state,
         "stale": stale(store, of)?,
         "author": of.author,
         "made": http::moment(of.made),
@@ -84,12 +85,13 @@ pub(super) async fn list(
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let program = query.one("program")?;
+    let state = query.among("state", &Wanted::ALL)?;
     let after = query.one("after")?.unwrap_or_default();
     let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
-    query.end("program, after, limit")?;
+    query.end("program, state, after, limit")?;
     let (all, next) = shared
         .store(move |store| {
-            let all = store.translations(program.as_deref(), &after, most)?;
+            let all = store.translations(program.as_deref(), state, &after, most)?;
             let next = all.last().filter(|_| all.len() == most as usize).map(|last| last.id.clone());
             let all = all.iter().map(|own| document(store, own)).collect::<Result<Vec<_>, _>>()?;
             Ok((all, next))

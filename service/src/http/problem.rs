@@ -47,6 +47,7 @@ type Kind = (&'static str, StatusCode, &'static str);
 
 const ABSENT: Kind = ("absent", StatusCode::NOT_FOUND, "nothing is kept under this name");
 const EXISTS: Kind = ("exists", StatusCode::CONFLICT, "the name is taken");
+const CONFLICT: Kind = ("conflict", StatusCode::CONFLICT, "this cannot be done now");
 const CHANGED: Kind = ("changed", StatusCode::PRECONDITION_FAILED, "it is not what you have read");
 const REQUEST: Kind = ("request", StatusCode::BAD_REQUEST, "the request is not of the form");
 const MEDIA_TYPE: Kind = ("media-type", StatusCode::UNSUPPORTED_MEDIA_TYPE, "the body is of another type");
@@ -151,6 +152,11 @@ impl Problem {
     /// The body has faults, each with its place.
     pub(crate) fn faulty(detail: impl Into<String>, diagnostics: Value) -> Problem {
         Problem::of(CONTENT, detail).found(Some(diagnostics))
+    }
+
+    /// What is kept does not allow it now.
+    pub(crate) fn conflict(detail: impl Into<String>) -> Problem {
+        Problem::of(CONFLICT, detail)
     }
 
     /// The name is taken.

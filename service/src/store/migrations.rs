@@ -12,6 +12,7 @@ const STEPS: &[&str] = &[
     include_str!("migrations/001-documents.sql"),
     include_str!("migrations/002-programs.sql"),
     include_str!("migrations/003-translations.sql"),
+    include_str!("migrations/004-states.sql"),
 ];
 
 /// The mark of ncc: `ncc1` in ASCII.

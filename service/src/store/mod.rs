@@ -9,6 +9,7 @@ mod documents;
 mod machines;
 mod migrations;
 mod programs;
+mod states;
 mod translations;
 
 use std::fmt;
@@ -22,6 +23,7 @@ pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::machines::Machine;
 pub(crate) use self::programs::{Details, Once, Revision, Said, Wanted};
+pub(crate) use self::states::{State, Step};
 pub(crate) use self::translations::{Outcome, Translation};
 
 /// Why the store did not do something.

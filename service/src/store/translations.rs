@@ -4,6 +4,7 @@ use rusqlite::{Connection, OptionalExtension, Row, params};
 
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
+use super::states::State;
 use super::{Store, StoreError};
 
 /// A translation.
@@ -21,6 +22,10 @@ pub(crate) struct Translation {
     pub(crate) asked: String,
     /// Digests of what went in, JSON.
     pub(crate) inputs: String,
+    /// What it was translated for: machine and dialect.
+    pub(crate) target: String,
+    /// Who may use it.
+    pub(crate) state: State,
     /// Who asked first.
     pub(crate) author: String,
     /// When it was made, seconds since 1970 (UTC).
@@ -51,7 +56,8 @@ impl Outcome {
     }
 }
 
-const TRANSLATION: &str = "SELECT id, key, program, revision, asked, inputs, author, made FROM translation";
+const TRANSLATION: &str = "SELECT id, key, program, revision, asked, inputs, target, state, author, made \
+                           FROM translation";
 
 fn read(row: &Row) -> rusqlite::Result<Translation> {
     Ok(Translation {
@@ -61,8 +67,10 @@ fn read(row: &Row) -> rusqlite::Result<Translation> {
         revision: row.get(3)?,
         asked: row.get(4)?,
         inputs: row.get(5)?,
-        author: row.get(6)?,
-        made: row.get(7)?,
+        target: row.get(6)?,
+        state: State::named(&row.get::<_, String>(7)?).ok_or(rusqlite::Error::InvalidQuery)?,
+        author: row.get(8)?,
+        made: row.get(9)?,
     })
 }
 
@@ -88,8 +96,8 @@ impl Store {
             let made = Translation { made: now(), ..made.clone() };
             let [output, report, map] = [output, report, map].map(|bytes| keep(to, bytes));
             to.execute(
-                "INSERT INTO translation (id, key, program, revision, asked, inputs, output, report, map, author, made)
-                 VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
+                "INSERT INTO translation (id, key, program, revision, asked, inputs, output, report, map, author, made, target, state)
+                 VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
                 params![
                     made.id,
                     made.key,
@@ -101,7 +109,9 @@ impl Store {
                     report?,
                     map?,
                     made.author,
-                    made.made
+                    made.made,
+                    made.target,
+                    made.state.name()
                 ],
             )?;
             Ok(made)
@@ -125,18 +135,21 @@ impl Store {
         })
     }
 
-    /// Translations of a program, or all, in the order of their names; those after a name, so many at most.
+    /// Translations of a program, or all, those in a state, or all, in the order of their names; those after a name, so many
+    /// at most.
     pub(crate) fn translations(
         &self,
         program: Option<&str>,
+        state: Option<State>,
         after: &str,
         most: u32,
     ) -> Result<Vec<Translation>, StoreError> {
         self.database.read(|from| {
             let mut all = from.prepare_cached(&format!(
-                "{TRANSLATION} WHERE (?1 IS NULL OR program = ?1) AND id > ?2 ORDER BY id LIMIT ?3"
+                "{TRANSLATION} WHERE (?1 IS NULL OR program = ?1) AND (?2 IS NULL OR state = ?2) AND id > ?3
+                 ORDER BY id LIMIT ?4"
             ))?;
-            let rows = all.query_map(params![program, after, most], read)?;
+            let rows = all.query_map(params![program, state.map(State::name), after, most], read)?;
             Ok(rows.collect::<Result<_, _>>()?)
         })
     }

@@ -1,0 +1,137 @@
+//! States of translations: who may use a text at the machine.
+//!
+//! A step is never changed. Of the translations of one program for one target, one is released at most; the one before it
+//! is obsolete from then on.
+
+use rusqlite::{Connection, Row, params};
+use serde::{Deserialize, Serialize};
+
+use super::documents::now;
+use super::programs::Said;
+use super::{Store, StoreError};
+
+/// A state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum State {
+    /// Nobody has looked at it.
+    #[default]
+    Draft,
+    /// Somebody looks at it.
+    InReview,
+    /// Somebody has looked at it, and it is good.
+    Approved,
+    /// It may be cut.
+    Released,
+    /// It may not be cut any more.
+    Obsolete,
+}
+
+impl State {
+    /// All states, with their names.
+    pub(crate) const ALL: [(&str, State); 5] = [
+        ("draft", State::Draft),
+        ("in-review", State::InReview),
+        ("approved", State::Approved),
+        ("released", State::Released),
+        ("obsolete", State::Obsolete),
+    ];
+
+    /// Its name.
+    pub(crate) fn name(self) -> &'static str {
+        State::ALL.iter().find(|(_, own)| *own == self).map_or("", |(name, _)| name)
+    }
+
+    pub(super) fn named(name: &str) -> Option<State> {
+        State::ALL.iter().find(|(own, _)| *own == name).map(|(_, state)| *state)
+    }
+
+    /// States that may follow.
+    pub(crate) const fn next(self) -> &'static [State] {
+        match self {
+            State::Draft => &[State::InReview, State::Obsolete],
+            State::InReview => &[State::Approved, State::Draft, State::Obsolete],
+            State::Approved => &[State::Released, State::Draft, State::Obsolete],
+            State::Released => &[State::Obsolete],
+            State::Obsolete => &[State::Draft],
+        }
+    }
+}
+
+/// A step from a state to another one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Step {
+    /// Counted from 1.
+    pub(crate) number: i64,
+    /// The state that it led to.
+    pub(crate) state: State,
+    /// Who, and why.
+    pub(crate) said: Said,
+    /// When, seconds since 1970 (UTC).
+    pub(crate) made: i64,
+}
+
+impl Store {
+    /// Puts a translation into another state, if it holds then: nobody else changes anything meanwhile. A release makes the
+    /// one before it obsolete.
+    pub(crate) fn step(
+        &self,
+        id: &str,
+        to: State,
+        said: &Said,
+        holds: impl FnOnce() -> bool,
+    ) -> Result<(), StoreError> {
+        self.database.write(|store| {
+            let (state, program, target): (String, String, String) = store.query_row(
+                "SELECT state, program, target FROM translation WHERE id = ?1",
+                [id],
+                |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)),
+            )?;
+            let may = State::named(&state).is_some_and(|state| state.next().contains(&to));
+            if !may || !holds() {
+                return Err(StoreError::Changed);
+            }
+            if to == State::Released {
+                let mut before = store.prepare(
+                    "SELECT id FROM translation WHERE program = ?1 AND target = ?2 AND state = 'released'",
+                )?;
+                let before: Vec<String> =
+                    before.query_map([program, target], |row| row.get(0))?.collect::<Result<_, _>>()?;
+                for before in before {
+                    let why = Said { message: format!("{id} is released"), ..said.clone() };
+                    add(store, &before, State::Obsolete, &why)?;
+                }
+            }
+            add(store, id, to, said)
+        })
+    }
+
+    /// What a translation has gone through, in order.
+    pub(crate) fn steps(&self, id: &str) -> Result<Vec<Step>, StoreError> {
+        self.database.read(|from| {
+            let mut all = from.prepare_cached(
+                "SELECT number, state, author, message, made FROM state WHERE translation = ?1 ORDER BY number",
+            )?;
+            let step = |row: &Row| {
+                let state: String = row.get(1)?;
+                Ok(Step {
+                    number: row.get(0)?,
+                    state: State::named(&state).ok_or(rusqlite::Error::InvalidQuery)?,
+                    said: Said { author: row.get(2)?, message: row.get(3)? },
+                    made: row.get(4)?,
+                })
+            };
+            Ok(all.query_map([id], step)?.collect::<Result<_, _>>()?)
+        })
+    }
+}
+
+fn add(to: &Connection, id: &str, state: State, said: &Said) -> Result<(), StoreError> {
+    to.execute("UPDATE translation SET state = ?2 WHERE id = ?1", params![id, state.name()])?;
+    to.execute(
+        "INSERT INTO state (translation, number, state, author, message, made)
+         SELECT ?1, coalesce(max(number), 0) + 1, ?2, ?3, ?4, ?5 FROM state WHERE translation = ?1",
+        params![id, state.name(), said.author, said.message, now()],
+    )?;
+    Ok(())
+}
