@@ -2,30 +2,44 @@
 
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
-use axum::http::header::CONTENT_TYPE;
+use axum::extract::{FromRequestParts, Path};
+use axum::http::header::{CONTENT_ENCODING, CONTENT_TYPE};
+use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
 use super::Problem;
+use super::arrival::Broken;
 
 /// Bytes of a name at most.
-const NAME: usize = 255;
+pub(crate) const NAME: usize = 255;
 
 /// A body as a whole.
 ///
 /// # Errors
-/// It is larger than the limit, or broke off.
+/// It is larger than the limit, came too slowly, or broke off; or too much arrives at once.
 pub(crate) fn whole(body: Result<Bytes, BytesRejection>, most: u64) -> Result<Bytes, Problem> {
     body.map_err(|rejection| match rejection.status() {
         StatusCode::PAYLOAD_TOO_LARGE => Problem::too_large(most),
-        _ => Problem::request("the body broke off"),
+        _ => match Broken::of(&rejection) {
+            Some(Broken::TooSlow) => Problem::too_slow(),
+            Some(Broken::Crowded) => Problem::busy("too many bodies arrive at once"),
+            None => Problem::request("the body broke off"),
+        },
     })
 }
 
 /// The media type of a body, without parameters, in small letters; none where it is not stated.
-pub(crate) fn media(headers: &HeaderMap) -> Option<String> {
-    let value = headers.get(CONTENT_TYPE)?.to_str().unwrap_or("?");
-    Some(value.split(';').next().unwrap_or_default().trim().to_ascii_lowercase())
+///
+/// # Errors
+/// The body is compressed: it would be read as it is.
+pub(crate) fn media(headers: &HeaderMap) -> Result<Option<String>, Problem> {
+    if headers.get(CONTENT_ENCODING).is_some_and(|encoding| encoding != "identity") {
+        return Err(Problem::encoding());
+    }
+    let Some(value) = headers.get(CONTENT_TYPE) else { return Ok(None) };
+    let value = value.to_str().unwrap_or("?");
+    Ok(Some(value.split(';').next().unwrap_or_default().trim().to_ascii_lowercase()))
 }
 
 /// A name that something is kept under: text of 1 to 255 bytes without control characters and `/`.
@@ -39,6 +53,23 @@ pub(crate) fn name(name: &str) -> Result<&str, Problem> {
         && !matches!(name, "." | "..");
     let form = || Problem::request("a name has 1 to 255 bytes, and neither control characters nor `/`");
     fits.then_some(name).ok_or_else(form)
+}
+
+/// The name in the address of a request.
+///
+/// # Errors
+/// As of [`name`].
+pub(crate) struct Name(pub(crate) String);
+
+impl<S: Send + Sync> FromRequestParts<S> for Name {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Name, Problem> {
+        let decoded = Path::<String>::from_request_parts(parts, state).await;
+        let Path(decoded) = decoded.map_err(|_| Problem::request("the name is no text in UTF-8"))?;
+        name(&decoded)?;
+        Ok(Name(decoded))
+    }
 }
 
 /// A name as it stands in an address.
