@@ -31,18 +31,40 @@ use axum::extract::DefaultBodyLimit;
 use axum::{Router, middleware};
 
 use self::case_study::{Remote, Shelf};
-use self::http::{Problem, gate};
+use self::http::arrival::{self, Arrivals};
+use self::http::{Problem, connections, gate};
 use self::store::Store;
 use self::work::Pool;
 
-/// Bytes of a program and of a document at most.
-const LARGEST: u64 = 256 << 20;
+/// What the service does for its clients at most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes of a program and of a document.
+    pub largest: u64,
+    /// Bytes of all bodies of requests together.
+    pub bodies: usize,
+    /// Pieces of work of the compiler that wait for each thread.
+    pub waiting: usize,
+    /// How long a piece of work may take.
+    pub work: Duration,
+    /// How long the head of a request may take.
+    pub head: Duration,
+    /// How long the body of a request may take.
+    pub body: Duration,
+}
 
-/// Pieces of work that wait for each thread at most.
-const WAITING: usize = 64;
-
-/// How long a piece of work may take.
-const LIMIT: Duration = Duration::from_secs(30);
+impl Default for Limits {
+    fn default() -> Limits {
+        Limits {
+            largest: 256 << 20,
+            bodies: 1 << 30,
+            waiting: 64,
+            work: Duration::from_secs(30),
+            head: Duration::from_secs(30),
+            body: Duration::from_secs(120),
+        }
+    }
+}
 
 /// Bytes of a thread's stack: programs nest.
 const STACK: usize = 8 << 20;
@@ -142,6 +164,7 @@ pub struct Service {
     routes: Router<Arc<Shared>>,
     shared: Arc<Shared>,
     threads: usize,
+    limits: Limits,
 }
 
 impl Service {
@@ -150,6 +173,19 @@ impl Service {
     /// # Errors
     /// It is no address of this computer, it is taken, or the database cannot be used.
     pub fn open(listen: SocketAddr, part: &Part, author: &str) -> Result<Service, OpenError> {
+        Service::with_limits(listen, part, author, Limits::default())
+    }
+
+    /// The same, with limits of its own.
+    ///
+    /// # Errors
+    /// As of [`Service::open`].
+    pub fn with_limits(
+        listen: SocketAddr,
+        part: &Part,
+        author: &str,
+        limits: Limits,
+    ) -> Result<Service, OpenError> {
         if !listen.ip().is_loopback() {
             return Err(OpenError::NotThisComputer);
         }
@@ -178,9 +214,10 @@ impl Service {
         let listener = TcpListener::bind(listen).map_err(OpenError::Address)?;
         let here = listener.local_addr().map_err(OpenError::Address)?;
         let threads = std::thread::available_parallelism().map_or(2, usize::from);
-        let pool = Pool::new(threads, WAITING, LIMIT);
-        let shared = Arc::new(Shared { shelf, own, pool, largest: LARGEST, author: author.to_owned() });
-        Ok(Service { listener, here, routes, shared, threads })
+        let pool = Pool::new(threads, limits.waiting, limits.work);
+        let shared =
+            Arc::new(Shared { shelf, own, pool, largest: limits.largest, author: author.to_owned() });
+        Ok(Service { listener, here, routes, shared, threads, limits })
     }
 
     /// Where it listens.
@@ -204,6 +241,10 @@ impl Service {
             .fallback(async || Problem::no_address())
             .method_not_allowed_fallback(async || Problem::method())
             .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
+            .layer(middleware::from_fn_with_state(
+                Arrivals::new(self.limits.bodies, self.limits.body),
+                arrival::pass,
+            ))
             .layer(middleware::from_fn_with_state(gate::Gate::new(self.here), gate::pass))
             .with_state(self.shared);
         runtime.block_on(async {
@@ -214,7 +255,7 @@ impl Service {
                     tokio::time::sleep(Duration::from_millis(50)).await;
                 }
             };
-            axum::serve(listener, routes).with_graceful_shutdown(stopped).await
+            connections::serve(listener, routes, self.limits.head, stopped).await
         })?;
         runtime.shutdown_background();
         Ok(())

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
-use axum::extract::{Path, RawQuery, State};
+use axum::extract::{RawQuery, State};
 use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
@@ -22,7 +22,7 @@ use ncc_machines::{Profile, ProfileError};
 use serde_json::{Value, json};
 
 use crate::Shared;
-use crate::http::body::{self, encoded};
+use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -88,7 +88,7 @@ fn faults(wrong: &[ProfileError], text: &str) -> Value {
 /// Gives a profile.
 async fn read(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
@@ -108,15 +108,14 @@ async fn read(
 /// Keeps a profile.
 async fn keep(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
-    body::name(&name)?;
     Query::of(query.as_deref()).end("")?;
     let over = expected(&headers)?;
-    if !matches!(body::media(&headers).as_deref(), Some(TOML | JSON)) {
+    if !matches!(body::media(&headers)?.as_deref(), Some(TOML | JSON)) {
         return Err(Problem::media("application/toml, or application/json for a machine.json"));
     }
     let body = body::whole(body, LARGEST as u64)?;
@@ -146,7 +145,7 @@ async fn keep(
 /// Deletes a profile.
 async fn delete(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {

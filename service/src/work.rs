@@ -2,6 +2,7 @@
 //!
 //! A piece is asked to stop when its time is over, and when nobody waits for its answer any more. Not here: what is done.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use ncc_exec::halt::{self, Halt};
@@ -20,12 +21,12 @@ pub(crate) enum NotDone {
 
 /// Threads that compile.
 pub(crate) struct Pool {
-    threads: Semaphore,
+    threads: Arc<Semaphore>,
     places: Semaphore,
     limit: Duration,
 }
 
-/// Asks the work to stop when it is dropped: with its request, or after its end, when that has no effect.
+/// Asks the work to stop when it is dropped: with its request, when its time is over, or after its end without effect.
 struct Waiting(Halt);
 
 impl Drop for Waiting {
@@ -37,7 +38,8 @@ impl Drop for Waiting {
 impl Pool {
     /// So many threads; as many pieces of work for each of them wait at most.
     pub(crate) fn new(threads: usize, waiting: usize, limit: Duration) -> Pool {
-        Pool { threads: Semaphore::new(threads), places: Semaphore::new(threads * (1 + waiting)), limit }
+        let places = Semaphore::new(threads * (1 + waiting));
+        Pool { threads: Arc::new(Semaphore::new(threads)), places, limit }
     }
 
     /// How long a piece may take.
@@ -51,19 +53,17 @@ impl Pool {
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T, NotDone> {
         let _place = self.places.try_acquire().map_err(|_| NotDone::Busy)?;
-        let thread = self.threads.acquire().await.map_err(|_| NotDone::Broken)?;
+        let thread = self.threads.clone().acquire_owned().await.map_err(|_| NotDone::Broken)?;
         let waiting = Waiting(Halt::default());
         let halt = waiting.0.clone();
-        let mut done = tokio::task::spawn_blocking(move || halt::under(Some(halt), work));
-        match tokio::time::timeout(self.limit, &mut done).await {
+        let done = tokio::task::spawn_blocking(move || {
+            // Its thread is taken until it has stopped, also where nobody waits for it any more.
+            let _thread = thread;
+            halt::under(Some(halt), work)
+        });
+        match tokio::time::timeout(self.limit, done).await {
             Ok(done) => done.map_err(|_| NotDone::Broken),
-            Err(_) => {
-                waiting.0.ask();
-                // Its thread is free as soon as it has stopped.
-                let _ = done.await;
-                drop(thread);
-                Err(NotDone::TooLong)
-            }
+            Err(_) => Err(NotDone::TooLong),
         }
     }
 }

@@ -130,8 +130,7 @@ fn stated<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Opt
 
 impl Patch {
     fn read(text: &[u8]) -> Result<Patch, Problem> {
-        let mut patch: Patch =
-            serde_json::from_slice(text).map_err(|error| Problem::content(error.to_string()))?;
+        let mut patch: Patch = body::object(text)?;
         message_fits(&patch.message)?;
         patch.name.as_deref().map_or(Ok(""), body::name)?;
         let text = |field: &Option<Option<String>>| field.clone().flatten().unwrap_or_default();
@@ -169,7 +168,7 @@ pub(super) async fn change(
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let over = expected(&headers)?;
-    if !matches!(body::media(&headers).as_deref(), Some("application/json" | "application/merge-patch+json"))
+    if !matches!(body::media(&headers)?.as_deref(), Some("application/json" | "application/merge-patch+json"))
     {
         return Err(Problem::media("application/merge-patch+json"));
     }

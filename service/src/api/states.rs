@@ -78,11 +78,11 @@ pub(super) async fn step(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    if body::media(&headers).as_deref() != Some("application/json") {
+    if body::media(&headers)?.as_deref() != Some("application/json") {
         return Err(Problem::media("application/json"));
     }
     let text = body::whole(body, REQUEST)?;
-    let asked: Asked = serde_json::from_slice(&text).map_err(|error| Problem::content(error.to_string()))?;
+    let asked: Asked = body::object(&text)?;
     message_fits(&asked.message)?;
     let said = Said { author: shared.author.clone(), message: asked.message };
     let document = shared

@@ -26,7 +26,7 @@ pub(super) async fn receive(
     headers: &HeaderMap,
     body: Body,
 ) -> Result<Receiving, Problem> {
-    match body::media(headers).as_deref() {
+    match body::media(headers)?.as_deref() {
         None | Some("application/octet-stream") => {}
         Some(media) if media.starts_with("text/") => {}
         Some(_) => return Err(Problem::media("text/plain")),
@@ -35,7 +35,7 @@ pub(super) async fn receive(
     let mut pieces = body.into_data_stream();
     while let Some(piece) = pieces.next().await {
         let refused = match piece {
-            Err(_) => Some(Problem::request("the body broke off")),
+            Err(error) => Some(body::broken(&error)),
             Ok(piece) if text.bytes() + piece.len() as u64 > shared.largest => {
                 Some(Problem::too_large(shared.largest))
             }

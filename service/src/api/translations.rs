@@ -62,11 +62,11 @@ pub(super) async fn create(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    if body::media(&headers).as_deref() != Some("application/json") {
+    if body::media(&headers)?.as_deref() != Some("application/json") {
         return Err(Problem::media("application/json"));
     }
     let text = body::whole(body, REQUEST)?;
-    let asked: Asked = serde_json::from_slice(&text).map_err(|error| Problem::content(error.to_string()))?;
+    let asked: Asked = body::object(&text)?;
     let (id, author) = (new_id()?, shared.author.clone());
     let (document, place, is_new) = shared
         .compile(move |store| {

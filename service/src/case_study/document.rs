@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::http::Problem;
+use crate::http::body::NAME;
 use crate::store::Parts;
 
 /// The payload before processing.
@@ -68,7 +69,15 @@ impl Whole {
             return Err(Problem::content("it has no payload"));
         }
         let parts = self.parts.into_iter().map(|(part, text)| (part, text.into_bytes())).collect();
-        Ok((parts, [self.machine, self.dialect]))
+        Ok((parts, short([self.machine, self.dialect])?))
+    }
+}
+
+/// The names of a machine and a dialect, which every list of documents has.
+fn short(names: [String; 2]) -> Result<[String; 2], Problem> {
+    match names.iter().all(|name| name.len() <= NAME) {
+        true => Ok(names),
+        false => Err(Problem::content(format!("its machine or its dialect has more than {NAME} bytes"))),
     }
 }
 
@@ -95,7 +104,8 @@ pub(crate) fn read(text: &[u8], name: &str) -> Result<Document, Problem> {
 pub(crate) fn of_payload(text: &[u8], name: &str) -> Result<(Parts, [String; 2]), Problem> {
     let document = read(text, name)?;
     let part = if document.processed().is_ok() { AFTER } else { BEFORE };
-    Ok((Parts::from([(part.to_owned(), text.to_vec())]), [document.machine_name, document.dialect]))
+    let of = short([document.machine_name, document.dialect])?;
+    Ok((Parts::from([(part.to_owned(), text.to_vec())]), of))
 }
 
 /// What a program is processed with.

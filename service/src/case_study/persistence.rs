@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
-use axum::extract::{Path, RawQuery, State};
+use axum::extract::{RawQuery, State};
 use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
@@ -17,7 +17,7 @@ use serde_json::json;
 use super::document::{self, AFTER, BEFORE, CMF, CMF_REFUSED, WHOLE_MEDIA, Whole};
 use super::shelf::{Found, whole};
 use crate::Shared;
-use crate::http::body::{self, LISTED, encoded};
+use crate::http::body::{self, LISTED, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -53,7 +53,7 @@ pub(super) async fn list(
 
 /// The document of a body.
 fn sent(headers: &HeaderMap, name: &str, body: &[u8]) -> Result<(Parts, [String; 2]), Problem> {
-    match body::media(headers).as_deref() {
+    match body::media(headers)?.as_deref() {
         Some("application/json") => document::of_payload(body, name),
         Some(WHOLE_MEDIA) => {
             let whole: Result<Whole, _> = serde_json::from_slice(body);
@@ -66,12 +66,11 @@ fn sent(headers: &HeaderMap, name: &str, body: &[u8]) -> Result<(Parts, [String;
 /// Stores a payload under a name that is free.
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
-    body::name(&name)?;
     Query::of(query.as_deref()).end("")?;
     let body = body::whole(body, shared.largest)?;
     let place = format!("/persistence/{}", encoded(&name));
@@ -87,12 +86,11 @@ pub(super) async fn create(
 /// Stores a payload in the place of another one.
 pub(super) async fn update(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
-    body::name(&name)?;
     Query::of(query.as_deref()).end("")?;
     let over = expected(&headers)?;
     let body = body::whole(body, shared.largest)?;
@@ -108,11 +106,10 @@ pub(super) async fn update(
 /// Deletes a document.
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
-    body::name(&name)?;
     Query::of(query.as_deref()).end("")?;
     let over = expected(&headers)?;
     shared.keep(move |shelf| shelf.delete(&name, &over)).await?;
@@ -122,7 +119,7 @@ pub(super) async fn delete(
 /// Gives a payload.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
@@ -137,7 +134,6 @@ pub(super) async fn read_in(
     headers: &HeaderMap,
     without: Form,
 ) -> Result<Response, Problem> {
-    body::name(&name)?;
     let mut query = Query::of(query);
     let forms =
         [("stored", Form::Stored), ("ncc", Form::Ncc), ("printed", Form::Printed), ("whole", Form::Whole)];

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
-use axum::extract::{Path, RawQuery, State};
+use axum::extract::{RawQuery, State};
 use axum::http::header::{ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
@@ -16,7 +16,7 @@ use super::document::{Setting, process};
 use super::persistence::{Form, read_in};
 use super::shelf::Shelf;
 use crate::Shared;
-use crate::http::body::{self, encoded};
+use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -28,6 +28,10 @@ const TAKES: &str =
 /// What a program is processed with, as its address states it.
 fn stated(query: Option<&str>) -> Result<Setting, Problem> {
     let mut query = Query::of(query);
+    let start_time = query.number("start_time")?.unwrap_or_default();
+    if !f64::is_finite(start_time) {
+        return Err(Problem::request(format!("`start_time` takes no `{start_time}`")));
+    }
     let words = |own: &'static [&'static str]| own.iter().map(|word| (*word, *word)).collect::<Vec<_>>();
     let setting = Setting {
         dialect: query.one("dialect")?,
@@ -35,7 +39,7 @@ fn stated(query: Option<&str>) -> Result<Setting, Problem> {
         profile: None,
         options: query.pairs("option")?,
         start: query.one("start")?,
-        start_time: query.number("start_time")?.unwrap_or_default(),
+        start_time,
         model: query.one("model")?,
         tool_change_on: query.among("tool_change_on", &words(&["select", "change"]))?.map(str::to_owned),
         units: query.among("units", &words(&["mm", "inch"]))?.map(str::to_owned),
@@ -61,7 +65,7 @@ fn with_profile(setting: &mut Setting, shelf: &Shelf) -> Result<(), Problem> {
 
 /// The program of a body.
 fn program(headers: &HeaderMap, body: Result<Bytes, BytesRejection>, most: u64) -> Result<Bytes, Problem> {
-    match body::media(headers).as_deref() {
+    match body::media(headers)?.as_deref() {
         None | Some("application/octet-stream") => {}
         Some(media) if media.starts_with("text/") => {}
         Some(_) => return Err(Problem::media("text/plain")),
@@ -72,12 +76,11 @@ fn program(headers: &HeaderMap, body: Result<Bytes, BytesRejection>, most: u64) 
 /// Processes a program, and stores its document under a name that is free.
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
-    body::name(&name)?;
     let mut setting = stated(query.as_deref())?;
     let program = program(&headers, body, shared.largest)?;
     let place = format!("/transpiler/{}", encoded(&name));
@@ -97,12 +100,11 @@ pub(super) async fn create(
 /// that one, unless the address names others.
 pub(super) async fn update(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
-    body::name(&name)?;
     let mut setting = stated(query.as_deref())?;
     let over = expected(&headers)?;
     let program = program(&headers, body, shared.largest)?;
@@ -127,7 +129,7 @@ pub(super) async fn update(
 /// Gives the payload.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
-    Path(name): Path<String>,
+    Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {

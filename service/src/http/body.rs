@@ -1,34 +1,69 @@
 //! Bodies of requests, and names in addresses.
 
+use std::error::Error;
+
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
-use axum::http::header::CONTENT_TYPE;
+use axum::extract::{FromRequestParts, Path};
+use axum::http::header::{CONTENT_ENCODING, CONTENT_TYPE};
+use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
 use super::Problem;
+use super::arrival::Broken;
 
 /// Entries of a list without `limit`, and at most.
 pub(crate) const LISTED: [u32; 2] = [100, 1000];
 
 /// Bytes of a name at most.
-const NAME: usize = 255;
+pub(crate) const NAME: usize = 255;
 
 /// A body as a whole.
 ///
 /// # Errors
-/// It is larger than the limit, or broke off.
+/// It is larger than the limit, came too slowly, or broke off; or too much arrives at once.
 pub(crate) fn whole(body: Result<Bytes, BytesRejection>, most: u64) -> Result<Bytes, Problem> {
     body.map_err(|rejection| match rejection.status() {
         StatusCode::PAYLOAD_TOO_LARGE => Problem::too_large(most),
-        _ => Problem::request("the body broke off"),
+        _ => broken(&rejection),
     })
 }
 
+/// Why a body did not arrive.
+pub(crate) fn broken(error: &(dyn Error + 'static)) -> Problem {
+    match Broken::of(error) {
+        Some(Broken::TooSlow) => Problem::too_slow(),
+        Some(Broken::Crowded) => Problem::busy("too many bodies arrive at once"),
+        None => Problem::request("the body broke off"),
+    }
+}
+
+/// A JSON object.
+///
+/// # Errors
+/// It is none, or not of the form.
+pub(crate) fn object<T: DeserializeOwned>(text: &[u8]) -> Result<T, Problem> {
+    // A list would be read as an object without names.
+    let object: Map<String, Value> =
+        serde_json::from_slice(text).map_err(|error| Problem::content(error.to_string()))?;
+    serde_json::from_value(object.into()).map_err(|error| Problem::content(error.to_string()))
+}
+
 /// The media type of a body, without parameters, in small letters; none where it is not stated.
-pub(crate) fn media(headers: &HeaderMap) -> Option<String> {
-    let value = headers.get(CONTENT_TYPE)?.to_str().unwrap_or("?");
-    Some(value.split(';').next().unwrap_or_default().trim().to_ascii_lowercase())
+///
+/// # Errors
+/// The body is compressed: it would be read as it is.
+pub(crate) fn media(headers: &HeaderMap) -> Result<Option<String>, Problem> {
+    if headers.get(CONTENT_ENCODING).is_some_and(|encoding| encoding != "identity") {
+        return Err(Problem::encoding());
+    }
+    let Some(value) = headers.get(CONTENT_TYPE) else { return Ok(None) };
+    let value = value.to_str().unwrap_or("?");
+    Ok(Some(value.split(';').next().unwrap_or_default().trim().to_ascii_lowercase()))
 }
 
 /// A name that something is kept under: text of 1 to 255 bytes without control characters and `/`.
@@ -42,6 +77,23 @@ pub(crate) fn name(name: &str) -> Result<&str, Problem> {
         && !matches!(name, "." | "..");
     let form = || Problem::request("a name has 1 to 255 bytes, and neither control characters nor `/`");
     fits.then_some(name).ok_or_else(form)
+}
+
+/// The name in the address of a request.
+///
+/// # Errors
+/// As of [`name`].
+pub(crate) struct Name(pub(crate) String);
+
+impl<S: Send + Sync> FromRequestParts<S> for Name {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Name, Problem> {
+        let decoded = Path::<String>::from_request_parts(parts, state).await;
+        let Path(decoded) = decoded.map_err(|_| Problem::request("the name is no text in UTF-8"))?;
+        name(&decoded)?;
+        Ok(Name(decoded))
+    }
 }
 
 /// A name as it stands in an address.

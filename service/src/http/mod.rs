@@ -1,7 +1,9 @@
 //! What all addresses have in common: conditions, queries, bodies, problems, and who is let in.
 
+pub(crate) mod arrival;
 pub(crate) mod body;
 pub(crate) mod conditions;
+pub(crate) mod connections;
 pub(crate) mod gate;
 pub(crate) mod problem;
 pub(crate) mod query;

@@ -51,6 +51,7 @@ const CONFLICT: Kind = ("conflict", StatusCode::CONFLICT, "this cannot be done n
 const CHANGED: Kind = ("changed", StatusCode::PRECONDITION_FAILED, "it is not what you have read");
 const REQUEST: Kind = ("request", StatusCode::BAD_REQUEST, "the request is not of the form");
 const MEDIA_TYPE: Kind = ("media-type", StatusCode::UNSUPPORTED_MEDIA_TYPE, "the body is of another type");
+const TOO_SLOW: Kind = ("too-slow", StatusCode::REQUEST_TIMEOUT, "the body came too slowly");
 const TOO_LARGE: Kind = ("too-large", StatusCode::PAYLOAD_TOO_LARGE, "the body is too large");
 const REFUSED: Kind = ("refused", StatusCode::UNPROCESSABLE_ENTITY, "the program is refused");
 const CONTENT: Kind = ("content", StatusCode::UNPROCESSABLE_ENTITY, "the body cannot be used");
@@ -128,6 +129,21 @@ impl Problem {
         Problem::of(TOO_LARGE, format!("it takes {most} bytes at most"))
     }
 
+    /// The body is compressed.
+    pub(crate) fn encoding() -> Problem {
+        Problem::of(MEDIA_TYPE, "it takes no Content-Encoding").help("send the body as it is")
+    }
+
+    /// The body did not come in time.
+    pub(crate) fn too_slow() -> Problem {
+        Problem::of(TOO_SLOW, "its time was over before its end")
+    }
+
+    /// Too much is asked at once.
+    pub(crate) fn busy(detail: &str) -> Problem {
+        Problem::of(BUSY, detail).help("ask again later")
+    }
+
     /// The body is not what it should be.
     pub(crate) fn content(detail: impl Into<String>) -> Problem {
         Problem::of(CONTENT, detail)
@@ -192,7 +208,7 @@ impl Problem {
     /// Of work that was not done within its limits.
     pub(crate) fn of_work(not: NotDone, limit: std::time::Duration) -> Problem {
         match not {
-            NotDone::Busy => Problem::of(BUSY, "all places of the queue are taken").help("ask again later"),
+            NotDone::Busy => Problem::busy("all places of the queue are taken"),
             NotDone::TooLong => {
                 Problem::of(TOO_LONG, format!("it was stopped after {} s", limit.as_secs_f64()))
             }
@@ -223,7 +239,7 @@ impl From<StoreError> for Problem {
                 Problem::of(REUSED, "Idempotency-Key").help("give each request a key of its own")
             }
             StoreError::Full => Problem::of(FULL, "nothing was changed"),
-            StoreError::Busy => Problem::of(BUSY, "the database is taken by others").help("ask again later"),
+            StoreError::Busy => Problem::busy("the database is taken by others"),
             StoreError::Database(words) => {
                 crate::log::fault(&words);
                 Problem::fault()

@@ -1,0 +1,9 @@
+//! The service over sockets: what the sources list, and what nobody should be able to do.
+
+mod attacks;
+mod client;
+mod limits;
+mod names;
+mod parts;
+mod study;
+mod tables;
