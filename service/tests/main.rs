@@ -1,6 +1,7 @@
 //! The service over sockets: what the sources list, and what nobody should be able to do.
 
 mod attacks;
+mod book;
 mod client;
 mod limits;
 mod names;

@@ -1,0 +1,55 @@
+//! Each example of the book's page, run by a shell against a started server.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use crate::client::{Server, repository};
+
+/// The address that the page has.
+const PRINTED: &str = "127.0.0.1:8274";
+
+/// Examples of a page: what is typed, and lines of what is printed.
+fn examples(page: &str) -> Vec<(String, Vec<String>)> {
+    let mut examples: Vec<(String, Vec<String>)> = Vec::new();
+    let mut lines = page.lines();
+    while let Some(line) = lines.next() {
+        let mut block =
+            || lines.by_ref().take_while(|line| *line != "```").map(str::to_owned).collect::<Vec<_>>();
+        match line {
+            "```sh" => examples.push((block().join("\n"), Vec::new())),
+            "```text" => examples.last_mut().expect("an example before").1 = block(),
+            _ => {}
+        }
+    }
+    examples
+}
+
+#[test]
+fn the_examples_of_the_page_do_what_it_says() {
+    let curl = Command::new("curl").arg("--version").stdout(Stdio::null()).status();
+    if cfg!(windows) || !curl.is_ok_and(|status| status.success()) {
+        eprintln!("skipped: no curl, or no shell, to run the examples of the book");
+        return;
+    }
+    let page = fs::read_to_string(repository("docs/book/src/use/serve.md")).expect("the page");
+    let examples = examples(&page);
+    assert!(examples.len() >= 5, "{} examples", examples.len());
+    let server = Server::all();
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::copy(repository("corpus/mach9/table9.cn"), folder.path().join("table9.cn")).expect("a program");
+    for (typed, printed) in examples {
+        let script = typed.replace(PRINTED, &server.address.to_string());
+        let done =
+            Command::new("sh").args(["-euc", &script]).current_dir(folder.path()).output().expect("a shell");
+        let text = String::from_utf8_lossy(&done.stdout);
+        assert!(done.status.success(), "{typed}\n{text}");
+        assert!(!printed.is_empty(), "nothing is said to be printed of\n{typed}");
+        for line in printed {
+            // Numbers and names after a comma may follow.
+            assert!(
+                text.lines().any(|own| own.starts_with(&line)),
+                "{line}\nis not printed by\n{typed}\n{text}"
+            );
+        }
+    }
+}
