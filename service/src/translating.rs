@@ -360,7 +360,12 @@ pub(crate) fn refusal(engine: &Engine, code: u8, report: &[u8]) -> Problem {
         (_, None) => "the messages say why, and where",
     };
     let questions = questions.cloned();
-    Problem::refused(detail, report.get("diagnostics").cloned(), messages).asking(questions)
+    let mut found = report.get("diagnostics").cloned();
+    // What refuses it comes first.
+    if let Some(all) = found.as_mut().and_then(Value::as_array_mut) {
+        all.sort_by_key(|own| own["severity"] != "error");
+    }
+    Problem::refused(detail, found, messages).asking(questions)
 }
 
 /// A request that is not of the form, in the engine's words: `error: …`, and lines of help.

@@ -6,5 +6,7 @@ mod client;
 mod limits;
 mod names;
 mod parts;
+mod programs;
 mod study;
 mod tables;
+mod translations;
