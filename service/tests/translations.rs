@@ -155,7 +155,7 @@ fn a_refusal_says_why_and_where() {
     let asking = new(
         &server,
         "name=asks.nc&dialect=fanuc",
-        "%\nO1\nG21 G17 G40 G49 G80 G90 G54\nT1 M6\nS1000 M3\nG43 H1 Z100\nG1 Z-5. F100.\nM30\n%\n",
+        "%\nO1\nG21 G17 G40 G49 G80 G90 G54\nT1 M6\nS1000 M3\nG00 G43 H1 Z100\nG1 Z-5. F100.\nM30\n%\n",
     );
     let asked = translate(&server, &json!({ "program": asking, "to": "siemens" }));
     assert_eq!(asked.status, 422, "{}", asked.text());
