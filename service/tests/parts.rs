@@ -104,9 +104,14 @@ fn each_has_its_own_addresses() {
         (&three.transpiler, &["/transpiler/a", "/transpiler"]),
         (&three.output, &["/output/a"]),
     ] {
-        for target in
-            ["/persistence/a", "/persistence", "/api/v1/machines", "/transpiler/a", "/transpiler", "/output/a"]
-        {
+        for target in [
+            "/persistence/a",
+            "/persistence",
+            "/api/v1/machines",
+            "/transpiler/a",
+            "/transpiler",
+            "/output/a",
+        ] {
             let status = if own.contains(&target) { 200 } else { 404 };
             assert_eq!(server.get(target).status, status, "{own:?}: {target}");
         }

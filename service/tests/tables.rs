@@ -32,8 +32,20 @@ const fn row(method: &'static str, target: &'static str, body: Body, status: u16
 
 const ROWS: &[Row] = &[
     // Table 6.
-    row("POST", "/transpiler/made.cn?dialect=mach9&machine=romi-discovery-4022", Program, 201, "\"blocks\": 8"),
-    row("POST", "/transpiler/made.cn?dialect=mach9&machine=romi-discovery-4022", Program, 409, "problem:exists"),
+    row(
+        "POST",
+        "/transpiler/made.cn?dialect=mach9&machine=romi-discovery-4022",
+        Program,
+        201,
+        "\"blocks\": 8",
+    ),
+    row(
+        "POST",
+        "/transpiler/made.cn?dialect=mach9&machine=romi-discovery-4022",
+        Program,
+        409,
+        "problem:exists",
+    ),
     row("GET", "/transpiler/made.cn", Nothing, 200, "\"prog_name\": \"made.cn\""),
     row("GET", "/transpiler/made.cn", Nothing, 200, "\"parameters\":[{}]"),
     row("GET", "/transpiler/made.cn?form=ncc", Nothing, 200, "\"parameters\":{}"),
@@ -106,7 +118,13 @@ const ROWS: &[Row] = &[
     row("GET", "/api/v1/machines/romi", Nothing, 200, TABLE_10),
     row("GET", "/api/v1/machines", Nothing, 200, "\"name\": \"romi\""),
     row("PUT", "/api/v1/machines/other", Json(TABLE_10), 422, "\\\"romi\\\""),
-    row("PUT", "/api/v1/machines/romi", Json("{ \"name\": \"romi\", \"max_feed\": 15000 }"), 422, "\"line\": 1"),
+    row(
+        "PUT",
+        "/api/v1/machines/romi",
+        Json("{ \"name\": \"romi\", \"max_feed\": \"fast\" }"),
+        422,
+        "\"line\": 1",
+    ),
     row("PUT", "/api/v1/machines/romi-discovery-4022", Text("x"), 415, "application/toml"),
     row("POST", "/api/v1/machines/romi", Json(TABLE_10), 405, "problem:method"),
     row("DELETE", "/api/v1/machines/romi", Nothing, 204, ""),
