@@ -268,3 +268,18 @@ fn the_zero_of_the_part_shows_the_travel() {
     assert!(!leaves);
     assert!(row(r#", "zero": [-200, -200, -300]"#).1);
 }
+
+/// A machine times programs in the language of another control; they are read in that language.
+#[test]
+fn a_dialect_that_is_named_is_read_on_any_machine() {
+    let file = [("part.nc", "T1M6\nM5\nM30\n")];
+    for dialect in ["haas", "mach9"] {
+        let request = format!(
+            r#"{{ "verb": "time", "file": "part.nc", "from": "{dialect}", "machine": "romi-discovery-4022" }}"#
+        );
+        let (code, engine) = done(&file, &request);
+        assert_eq!(code, 0, "{}", text(&engine, "messages"));
+        let times: serde_json::Value = serde_json::from_str(&text(&engine, "times")).expect("JSON");
+        assert_eq!(times["dialect"], dialect);
+    }
+}

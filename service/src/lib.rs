@@ -241,10 +241,7 @@ impl Service {
             .fallback(async || Problem::no_address())
             .method_not_allowed_fallback(async || Problem::method())
             .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
-            .layer(middleware::from_fn_with_state(
-                Arrivals::new(self.limits.bodies, self.limits.body),
-                arrival::pass,
-            ))
+            .layer(middleware::from_fn_with_state(Arrivals::new(&self.limits), arrival::pass))
             .layer(middleware::from_fn_with_state(gate::Gate::new(self.here), gate::pass))
             .with_state(self.shared);
         runtime.block_on(async {

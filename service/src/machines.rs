@@ -60,7 +60,7 @@ async fn list(State(shared): State<Arc<Shared>>, RawQuery(query): RawQuery) -> R
 }
 
 /// A profile in either form.
-fn profile(text: &str) -> Result<Profile, Vec<ProfileError>> {
+pub(crate) fn profile(text: &str) -> Result<Profile, Vec<ProfileError>> {
     match text.trim_start().starts_with('{') {
         true => Profile::parse_machine_json(text),
         false => Profile::parse(text, &ncc_dialects::builtin),

@@ -152,7 +152,7 @@ const HEADS: &[Sent] = &[
     ("an address without end", "GET /{LONG} HTTP/1.1\r\nHost: {HOST}\r\n\r\n", &[414, 431, 404]),
     (
         "a header without end",
-        "GET /persistence HTTP/1.1\r\nHost: {HOST}\r\nX: {LONG}{LONG}{LONG}{LONG}{LONG}{LONG}{LONG}\r\n\r\n",
+        "GET /persistence HTTP/1.1\r\nHost: {HOST}\r\nX: {LONG}{LONG}{LONG}{LONG}{LONG}\r\n\r\n",
         &[431],
     ),
     ("headers without end", "GET /persistence HTTP/1.1\r\nHost: {HOST}\r\n{MANY}\r\n", &[431]),
@@ -288,9 +288,9 @@ fn a_program_nests_no_deeper_than_the_stack() {
         ("an empty line", "fanuc", "\n".to_owned(), 422),
         ("NUL", "fanuc", "\0".repeat(1000), 422),
         ("percent signs", "fanuc", "%\n".repeat(10_000), 422),
-        ("brackets", "fanuc", brackets(2000), 422),
+        ("brackets", "fanuc", brackets(2000), 201),
         ("more brackets", "fanuc", brackets(500_000), 422),
-        ("minus signs", "fanuc", format!("O1\n#1={}1\nM30\n", "-".repeat(4000)), 422),
+        ("minus signs", "fanuc", format!("O1\n#1={}1\nM30\n", "-".repeat(4000)), 201),
         (
             "brackets in an index",
             "linuxcnc",
@@ -308,6 +308,7 @@ fn a_program_nests_no_deeper_than_the_stack() {
     ] {
         let answer = server.program("POST", &format!("/transpiler/a?dialect={dialect}"), &text);
         assert_eq!(answer.status, status, "{what}: {}", answer.text().get(..600).unwrap_or(&answer.text()));
+        server.delete("/transpiler/a");
         assert!(server.is_well(), "{what}");
     }
     let binary = (0..=255).collect::<Vec<u8>>().repeat(100);

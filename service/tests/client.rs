@@ -1,7 +1,7 @@
 //! A server with a database of its own, and a client that sends any bytes.
 
 use std::io::{self, Read, Write};
-use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::net::{SocketAddr, TcpStream};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -11,6 +11,9 @@ use tempfile::TempDir;
 
 /// How long a test waits for an answer.
 const PATIENCE: Duration = Duration::from_secs(60);
+
+/// How long a server says nothing that says no more.
+const PAUSE: Duration = Duration::from_millis(300);
 
 /// The machine file of table 10.
 pub(crate) const TABLE_10: &str =
@@ -129,11 +132,11 @@ impl Server {
         self.ask(method, target, &[("Content-Type", "application/json")], body)
     }
 
-    /// Sends bytes as they are, and reads what comes back until the server ends the connection.
+    /// Sends bytes as they are, and reads what comes back until the server ends the connection, or says no more.
     pub(crate) fn raw(&self, bytes: &[u8]) -> io::Result<Answer> {
         let mut stream = self.connect();
+        stream.set_read_timeout(Some(PAUSE)).expect("a limit");
         let _ = stream.write_all(bytes);
-        let _ = stream.shutdown(Shutdown::Write);
         answer(&mut stream)
     }
 

@@ -17,6 +17,11 @@ const ENDLESS: &str = "%\nO1\nG21G90G17G40G80\n#1=0\nWHILE[#1LT1]DO1\n#2=#2+1\nE
 
 const LONG: &str = "/transpiler/long?dialect=fanuc";
 
+/// A program of so many bytes.
+fn long_program(bytes: usize) -> String {
+    format!("{PROGRAM}{}", "\n".repeat(bytes - PROGRAM.len()))
+}
+
 fn threads() -> usize {
     std::thread::available_parallelism().map_or(2, usize::from)
 }
@@ -25,7 +30,7 @@ fn threads() -> usize {
 #[test]
 fn a_body_has_its_largest_size() {
     let server = Server::limited(Limits { largest: 20_000, ..Limits::default() });
-    let largest = format!("{PROGRAM}{}", " ".repeat(20_000 - PROGRAM.len()));
+    let largest = long_program(20_000);
     let target = "/transpiler/a?dialect=mach9";
     assert_eq!(server.program("POST", target, &largest).status, 201);
     let promised = |bytes: u64| {
@@ -38,7 +43,7 @@ fn a_body_has_its_largest_size() {
         read_answer(&mut stream)
     };
     // It is told before its body comes.
-    for bytes in [20_001, 1 << 40, u64::MAX - 1] {
+    for bytes in [20_001, 1 << 40, 1 << 62] {
         let answer = promised(bytes);
         assert_eq!(answer.status, 413, "{bytes}: {}", answer.text());
         assert_eq!(answer.json()["detail"], "it takes 20000 bytes at most");
@@ -49,18 +54,8 @@ fn a_body_has_its_largest_size() {
         ("PUT", "/transpiler/a"),
         ("PUT", "/api/v1/machines/m"),
     ] {
-        let body = " ".repeat(20_001);
-        assert_eq!(
-            server.json(method, target, body.as_bytes()).status,
-            if target.contains("transpiler") { 415 } else { 413 }
-        );
         let answer = chunks(&server, method, target, 20_001);
-        assert_eq!(
-            answer.0,
-            if target.contains("transpiler") { 415 } else { 413 },
-            "{method} {target}: {}",
-            answer.1
-        );
+        assert_eq!(answer.0, 413, "{method} {target}: {}", answer.1);
     }
     assert_eq!(chunks(&server, "POST", "/persistence/b", 20_000).0, 422);
     // A document that would be larger than what was sent.
@@ -70,13 +65,14 @@ fn a_body_has_its_largest_size() {
     assert!(server.is_well());
 }
 
-/// Sends chunks of JSON without end, so many bytes.
+/// Sends chunks, so many bytes.
 fn chunks(server: &Server, method: &str, target: &str, bytes: usize) -> (u16, String) {
     let mut stream = server.connect();
     let head = format!(
-        "{method} {target} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Type: application/json\r\n\
+        "{method} {target} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Type: {media}\r\n\
          Transfer-Encoding: chunked\r\n\r\n",
-        server.address
+        server.address,
+        media = if target.starts_with("/transpiler") { "text/plain" } else { "application/json" },
     );
     stream.write_all(head.as_bytes()).expect("a head");
     let mut left = bytes;
@@ -225,7 +221,7 @@ fn bodies_have_their_size_together() {
     server.keep("b");
     drop((promises, held, more));
     let since = Instant::now();
-    let large = format!("{PROGRAM}{}", " ".repeat(800_000));
+    let large = long_program(800_000);
     loop {
         let status = server.program("POST", "/transpiler/large?dialect=mach9", &large).status;
         if status == 201 {

@@ -76,7 +76,7 @@ fn table_9_gives_a_list_of_functions() {
     let made = post(&server, "table9.cn", TABLE_9).json();
     assert_eq!(made["cmf"], true, "{made}");
     let list = server.get("/output/table9.cn&type=cmf").text();
-    for function in ["SELECT_TOOL(3)", "SET_SPINDLE_SPEED(1857)", "START_SPINDLE_CLOCKWISE()"] {
+    for function in ["SELECT_TOOL(3)", "SET_SPINDLE_SPEED(1857.0)", "START_SPINDLE_CLOCKWISE()"] {
         assert!(list.lines().any(|line| line == function), "{function}: {list}");
     }
     assert!(list.lines().filter(|line| line.starts_with("STRAIGHT_FEED(")).count() == 4, "{list}");

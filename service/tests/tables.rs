@@ -121,7 +121,7 @@ const ROWS: &[Row] = &[
     row(
         "PUT",
         "/api/v1/machines/romi",
-        Json("{ \"name\": \"romi\", \"max_feed\": 15000 }"),
+        Json("{ \"name\": \"romi\", \"max_feed\": \"fast\" }"),
         422,
         "\"line\": 1",
     ),

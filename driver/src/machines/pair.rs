@@ -34,9 +34,11 @@ pub enum Answer {
 }
 
 impl Machines {
-    /// A side's dialect with what its profile states; the dialect alone if there is no profile.
+    /// A side's dialect with what its profile states of it; the dialect alone if there is no profile, or that of another
+    /// control.
     pub fn settings(&self, side: Side, dialect: &'static Dialect) -> Settings {
-        self.side(side).map_or_else(|| Settings::new(dialect), Profile::settings)
+        let own = self.side(side).filter(|profile| profile.dialect.id == dialect.id);
+        own.map_or_else(|| Settings::new(dialect), Profile::settings)
     }
 
     /// Block numbers, as the shop wants them.

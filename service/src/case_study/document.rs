@@ -13,11 +13,13 @@ use std::collections::BTreeMap;
 
 use ncc_driver::time::payload::{self, Document};
 use ncc_engine::Engine;
+use ncc_machines::Profile;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::http::Problem;
 use crate::http::body::NAME;
+use crate::machines::profile;
 use crate::store::Parts;
 
 /// The payload before processing.
@@ -238,8 +240,13 @@ fn canonical(
     machine: Option<&str>,
     dialect: &str,
 ) -> Result<Vec<u8>, Value> {
-    // The case study's machine file names no control, and has rates and times alone: they have no place in the list.
-    let names_control = setting.profile.as_ref().is_none_or(|text| !text.trim_start().starts_with('{'));
+    // What a profile states of its control holds for programs in that control's language alone.
+    let is_own = |profile: &Profile| !profile.any_control && profile.dialect.id == dialect;
+    let names_control = match (&setting.profile, &setting.machine) {
+        (Some(text), _) => profile(text).is_ok_and(|own| is_own(&own)),
+        (None, Some(name)) => ncc_machines::find(name).is_some_and(is_own),
+        (None, None) => false,
+    };
     let request = json!({
         "verb": "translate",
         "file": name,

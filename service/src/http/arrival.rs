@@ -1,6 +1,7 @@
-//! Bodies as they arrive: how long one may take, and how many bytes all of them together may hold.
+//! Bodies as they arrive: how large one may be, how long it may take, and how many bytes all of them together may hold.
 //!
-//! Bytes are counted when they come, not when they are promised, and until their request has been answered.
+//! A body that is promised to be too large is refused before it comes. All together are counted as they come, not as they
+//! are promised, and until their requests have been answered.
 
 use std::error::Error;
 use std::fmt;
@@ -12,16 +13,21 @@ use std::time::Duration;
 use axum::body::{Body, Bytes, HttpBody};
 use axum::extract::{Request, State};
 use axum::middleware::Next;
-use axum::response::Response;
+use axum::response::{IntoResponse, Response};
 use http_body::{Frame, SizeHint};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::Sleep;
+
+use super::Problem;
+use crate::Limits;
 
 /// Limits of all bodies.
 #[derive(Clone)]
 pub(crate) struct Arrivals {
     /// Bytes that all bodies together may still hold.
     free: Arc<Semaphore>,
+    /// Bytes of one body.
+    largest: u64,
     /// How long one body may take.
     patience: Duration,
 }
@@ -54,8 +60,9 @@ impl Broken {
 }
 
 impl Arrivals {
-    pub(crate) fn new(bytes: usize, patience: Duration) -> Arrivals {
-        Arrivals { free: Arc::new(Semaphore::new(bytes.min(Semaphore::MAX_PERMITS))), patience }
+    pub(crate) fn new(limits: &Limits) -> Arrivals {
+        let free = Arc::new(Semaphore::new(limits.bodies.min(Semaphore::MAX_PERMITS)));
+        Arrivals { free, largest: limits.largest, patience: limits.body }
     }
 }
 
@@ -117,6 +124,9 @@ impl HttpBody for Arriving {
 
 /// Lets a request's body arrive within the limits.
 pub(crate) async fn pass(State(arrivals): State<Arrivals>, request: Request, next: Next) -> Response {
+    if request.body().size_hint().lower() > arrivals.largest {
+        return Problem::too_large(arrivals.largest).into_response();
+    }
     let held = Held::default();
     let request = request.map(|body| {
         let late = Box::pin(tokio::time::sleep(arrivals.patience));

@@ -20,6 +20,9 @@ use crate::log;
 /// Connections at once at most; further ones wait. A process has 1024 open files at least.
 const CONNECTIONS: usize = 512;
 
+/// Bytes of a head at most; as many of a body are read at once.
+const HEAD: usize = 128 << 10;
+
 /// How long requests that are being answered have until the process ends.
 const GRACE: Duration = Duration::from_secs(35);
 
@@ -58,6 +61,7 @@ pub(crate) async fn serve(
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())
             .header_read_timeout(head)
+            .max_buf_size(HEAD)
             .serve_connection(TokioIo::new(stream), TowerToHyperService::new(routes.clone()));
         let connection = graceful.watch(connection);
         tokio::spawn(async move {
