@@ -198,20 +198,20 @@ fn a_body_has_its_time() {
 /// All bodies together have their size; bytes that are promised do not count.
 #[test]
 fn bodies_have_their_size_together() {
-    let server = Server::limited(Limits { bodies: 1_000_000, ..Limits::default() });
+    let server = Server::limited(Limits { bodies: 100_000, ..Limits::default() });
     let head = |bytes: usize| {
         format!("POST /transpiler/a HTTP/1.1\r\nHost: {}\r\nContent-Length: {bytes}\r\n\r\n", server.address)
     };
     let begin = |sent: usize| {
         let mut stream = server.connect();
-        stream.write_all(head(900_000).as_bytes()).expect("a head");
+        stream.write_all(head(90_000).as_bytes()).expect("a head");
         stream.write_all(&vec![b' '; sent]).expect("a part of a body");
         stream
     };
     let promises = (0..10).map(|_| begin(10)).collect::<Vec<_>>();
-    let held = begin(800_000);
+    let held = begin(80_000);
     std::thread::sleep(Duration::from_millis(300));
-    let mut more = begin(300_000);
+    let mut more = begin(30_000);
     let answer = {
         let mut first = [0; 12];
         more.read_exact(&mut first).expect("an answer");
@@ -221,13 +221,14 @@ fn bodies_have_their_size_together() {
     server.keep("b");
     drop((promises, held, more));
     let since = Instant::now();
-    let large = long_program(800_000);
+    let large = long_program(80_000);
     loop {
-        let status = server.program("POST", "/transpiler/large?dialect=mach9", &large).status;
+        let answer = server.program("POST", "/transpiler/large?dialect=mach9", &large);
+        let status = answer.status;
         if status == 201 {
             break;
         }
-        assert!(status == 503 && since.elapsed() < Duration::from_secs(10), "{status}");
+        assert!(status == 503 && since.elapsed() < Duration::from_secs(10), "{}", answer.text());
         std::thread::sleep(Duration::from_millis(20));
     }
 }
