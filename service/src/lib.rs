@@ -20,6 +20,7 @@ mod machines;
 mod store;
 mod translating;
 mod work;
+mod workers;
 
 use std::io;
 use std::net::{SocketAddr, TcpListener};
@@ -29,6 +30,7 @@ use std::time::Duration;
 
 use axum::extract::DefaultBodyLimit;
 use axum::{Router, middleware};
+use tokio::sync::watch;
 
 use self::case_study::{Remote, Shelf};
 use self::http::arrival::{self, Arrivals};
@@ -146,6 +148,16 @@ impl Shared {
         done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
     }
 
+    /// The same for work that waits as long as it takes for its turn.
+    async fn compile_in_turn<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&Store) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let store = self.own.clone().ok_or_else(Problem::no_address)?;
+        let done = self.pool.run_in_turn(move || work(&store)).await;
+        done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
+    }
+
     /// Does work of the compiler, within its limits.
     async fn work<T: Send + 'static>(
         &self,
@@ -164,6 +176,8 @@ pub struct Service {
     routes: Router<Arc<Shared>>,
     shared: Arc<Shared>,
     threads: usize,
+    /// How many jobs' tasks are done at once.
+    workers: usize,
     limits: Limits,
 }
 
@@ -217,7 +231,8 @@ impl Service {
         let pool = Pool::new(threads, limits.waiting, limits.work);
         let shared =
             Arc::new(Shared { shelf, own, pool, largest: limits.largest, author: author.to_owned() });
-        Ok(Service { listener, here, routes, shared, threads, limits })
+        let workers = if matches!(part, Part::All { .. }) { threads } else { 0 };
+        Ok(Service { listener, here, routes, shared, threads, workers, limits })
     }
 
     /// Where it listens.
@@ -243,16 +258,26 @@ impl Service {
             .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
             .layer(middleware::from_fn_with_state(Arrivals::new(&self.limits), arrival::pass))
             .layer(middleware::from_fn_with_state(gate::Gate::new(self.here), gate::pass))
-            .with_state(self.shared);
+            .with_state(Arc::clone(&self.shared));
         runtime.block_on(async {
             self.listener.set_nonblocking(true)?;
             let listener = tokio::net::TcpListener::from_std(self.listener)?;
+            let (stop, asked) = watch::channel(false);
+            let workers: Vec<_> = (0..self.workers)
+                .map(|_| tokio::spawn(workers::work(Arc::clone(&self.shared), asked.clone())))
+                .collect();
             let stopped = async {
                 while !ncc_exec::halt::is_asked() {
                     tokio::time::sleep(Duration::from_millis(50)).await;
                 }
+                let _ = stop.send(true);
             };
-            connections::serve(listener, routes, self.limits.head, stopped).await
+            let served = connections::serve(listener, routes, self.limits.head, stopped).await;
+            for worker in workers {
+                // One that broke off has left its task to others.
+                let _ = worker.await;
+            }
+            served
         })?;
         runtime.shutdown_background();
         Ok(())

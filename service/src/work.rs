@@ -53,6 +53,14 @@ impl Pool {
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T, NotDone> {
         let _place = self.places.try_acquire().map_err(|_| NotDone::Busy)?;
+        self.run_in_turn(work).await
+    }
+
+    /// The same as soon as a thread is free, however many wait.
+    pub(crate) async fn run_in_turn<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T, NotDone> {
         let thread = self.threads.clone().acquire_owned().await.map_err(|_| NotDone::Broken)?;
         let waiting = Waiting(Halt::default());
         let halt = waiting.0.clone();

@@ -1,4 +1,4 @@
-//! Programs of a shop, their revisions, and their translations ([`translations`]).
+//! Programs of a shop, their revisions, their translations ([`translations`], [`states`]), and jobs over many of them ([`jobs`]).
 //!
 //! ```text
 //! POST   /api/v1/programs?folder=F&name=N       a new program; the body is its text
@@ -17,6 +17,7 @@
 //! Every change makes a revision, so nothing is overwritten. The tag of a program is the number of its revision.
 
 mod document;
+mod jobs;
 mod outputs;
 mod programs;
 mod revisions;
@@ -32,7 +33,9 @@ use axum::routing::{get, post};
 
 use crate::Shared;
 
-/// Addresses of programs and translations.
+pub(crate) use self::programs::new_id;
+
+/// Addresses of programs, translations and jobs.
 pub(crate) fn routes() -> Router<Arc<Shared>> {
     Router::new()
         .route("/api/v1/programs", get(programs::list).post(programs::create))
@@ -47,6 +50,10 @@ pub(crate) fn routes() -> Router<Arc<Shared>> {
         .route("/api/v1/translations/{id}", get(translations::read))
         .route("/api/v1/translations/{id}/states", get(states::list).post(states::step))
         .route("/api/v1/translations/{id}/{what}", get(translations::outcome))
+        .route("/api/v1/jobs", get(jobs::list).post(jobs::create))
+        .route("/api/v1/jobs/{id}", get(jobs::read).delete(jobs::cancel))
+        .route("/api/v1/jobs/{id}/results", get(jobs::results))
+        .route("/api/v1/jobs/{id}/events", get(jobs::events))
         // Texts come in pieces, and are counted as they come.
         .layer(DefaultBodyLimit::disable())
 }

@@ -62,7 +62,7 @@ pub(super) async fn create(
 }
 
 /// A name that nothing else has: 100 bits by chance.
-pub(super) fn new_id() -> Result<String, Problem> {
+pub(crate) fn new_id() -> Result<String, Problem> {
     const SIGNS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstvwxyz";
     let mut bytes = [0_u8; 20];
     getrandom::fill(&mut bytes).map_err(|_| Problem::fault())?;

@@ -15,7 +15,7 @@ use axum::extract::{Path, RawQuery, State};
 use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::programs::new_id;
 use crate::Shared;
@@ -32,26 +32,27 @@ const REQUEST: u64 = 1 << 16;
 /// What is told of a translation.
 pub(super) fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
     let asked: Value = serde_json::from_str(&of.asked).unwrap_or_default();
-    let asked: Value = asked
-        .as_object()
-        .into_iter()
-        .flatten()
-        .filter(|(_, value)| !value.is_null() && *value != &json!({}) && *value != &json!(false))
-        .map(|(name, value)| (name.clone(), value.clone()))
-        .collect::<serde_json::Map<_, _>>()
-        .into();
     let inputs: Value = serde_json::from_str(&of.inputs).unwrap_or_default();
     Ok(json!({
         "id": of.id,
         "program": of.program,
         "revision": of.revision,
-        "asked": asked,
+        "asked": short(&asked),
         "inputs": inputs,
         "state": of.state,
         "stale": stale(store, of)?,
         "author": of.author,
         "made": http::moment(of.made),
     }))
+}
+
+/// What is asked, without what is left open.
+pub(super) fn short(asked: &Value) -> Value {
+    let says = |value: &Value| {
+        !value.is_null() && *value != json!({}) && *value != json!(false) && *value != json!("")
+    };
+    let fields = asked.as_object().into_iter().flatten().filter(|(_, value)| says(value));
+    fields.map(|(name, value)| (name.clone(), value.clone())).collect::<Map<_, _>>().into()
 }
 
 /// Translates a program.

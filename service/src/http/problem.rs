@@ -93,6 +93,16 @@ impl Problem {
         self
     }
 
+    /// What is wrong.
+    pub(crate) fn detail(&self) -> &str {
+        &self.0.detail
+    }
+
+    /// All of it, as it is told.
+    pub(crate) fn body(&self) -> Value {
+        serde_json::to_value(&self.0).unwrap_or_default()
+    }
+
     /// With questions that are open.
     pub(crate) fn asking(mut self, questions: Option<Value>) -> Problem {
         self.0.questions = questions;

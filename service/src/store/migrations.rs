@@ -13,6 +13,7 @@ const STEPS: &[&str] = &[
     include_str!("migrations/002-programs.sql"),
     include_str!("migrations/003-translations.sql"),
     include_str!("migrations/004-states.sql"),
+    include_str!("migrations/005-jobs.sql"),
 ];
 
 /// The mark of ncc: `ncc1` in ASCII.

@@ -6,6 +6,7 @@
 mod contents;
 mod database;
 mod documents;
+mod jobs;
 mod machines;
 mod migrations;
 mod programs;
@@ -21,6 +22,7 @@ use self::database::Database;
 
 pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
+pub(crate) use self::jobs::{End, Job, Task, TaskResult};
 pub(crate) use self::machines::Machine;
 pub(crate) use self::programs::{Details, Once, Revision, Said, Wanted};
 pub(crate) use self::states::{State, Step};

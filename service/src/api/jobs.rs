@@ -1,0 +1,240 @@
+//! Jobs: the programs of a folder, or some, translated one after the other.
+//!
+//! ```text
+//! POST   /api/v1/jobs              { "under": "plates", "to": "fanuc", … }
+//! GET    /api/v1/jobs              the newest first
+//! GET    /api/v1/jobs/ID           how far it is
+//! GET    /api/v1/jobs/ID/results   what became of each program
+//! GET    /api/v1/jobs/ID/events    the same as it comes (server-sent events)
+//! DELETE /api/v1/jobs/ID           cancels it
+//! ```
+
+use std::convert::Infallible;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::body::Bytes;
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{Path, RawQuery, State};
+use axum::http::header::LOCATION;
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use futures_util::stream;
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+
+use super::document::folder;
+use super::programs::new_id;
+use crate::Shared;
+use crate::http::body::{self, LISTED};
+use crate::http::query::Query;
+use crate::http::{self, Problem};
+use crate::store::{Job, TaskResult, Wanted};
+use crate::translating::Asked;
+
+/// Bytes of a request at most.
+const REQUEST: u64 = 1 << 20;
+
+/// Programs of a job at most.
+const PROGRAMS: u32 = 100_000;
+
+/// How often a job is looked at for its events.
+const GLANCE: Duration = Duration::from_millis(200);
+
+/// Which programs a job is about: those of a folder and below it, a list of them, or both.
+#[derive(Debug, Default, Deserialize)]
+struct Which {
+    under: Option<String>,
+    tag: Option<String>,
+    #[serde(default)]
+    programs: Vec<String>,
+}
+
+fn told(job: &Job) -> Value {
+    let asked: Value = serde_json::from_str(&job.asked).unwrap_or_default();
+    json!({
+        "id": job.id,
+        "asked": super::translations::short(&asked),
+        "author": job.author,
+        "made": http::moment(job.made),
+        "ended": job.ended.map(http::moment),
+        "cancelled": job.is_cancelled,
+        "tasks": job.counts,
+    })
+}
+
+/// What is asked, taken apart: which programs, and what of each.
+fn taken_apart(text: &[u8]) -> Result<(Which, Asked), Problem> {
+    let mut object: Map<String, Value> = body::object(text)?;
+    let mut which = Map::new();
+    for name in ["under", "tag", "programs"] {
+        which.extend(object.remove(name).map(|value| (name.to_owned(), value)));
+    }
+    for name in ["program", "revision"] {
+        if object.contains_key(name) {
+            return Err(Problem::content(format!(
+                "a job has no `{name}`: it is about `programs`, or those `under` a folder"
+            )));
+        }
+    }
+    let form = |error: serde_json::Error| Problem::content(error.to_string());
+    let which: Which = serde_json::from_value(which.into()).map_err(form)?;
+    if which.under.is_none() && which.tag.is_none() && which.programs.is_empty() {
+        return Err(Problem::content("it names no programs")
+            .help("\"under\": FOLDER, \"tag\": TAG, or \"programs\": [ID, …]"));
+    }
+    folder(which.under.as_deref().unwrap_or_default())?;
+    Ok((which, serde_json::from_value(object.into()).map_err(form)?))
+}
+
+/// Begins a job.
+pub(super) async fn create(
+    State(shared): State<Arc<Shared>>,
+    RawQuery(query): RawQuery,
+    headers: HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    if body::media(&headers)?.as_deref() != Some("application/json") {
+        return Err(Problem::media("application/json"));
+    }
+    let (which, asked) = taken_apart(&body::whole(body, REQUEST)?)?;
+    let (id, author) = (new_id()?, shared.author.clone());
+    let place = format!("/api/v1/jobs/{id}");
+    let job = shared
+        .store(move |store| {
+            let mut programs = Vec::new();
+            for program in &which.programs {
+                programs.push((program.clone(), store.program(program)?.number));
+            }
+            if which.under.is_some() || which.tag.is_some() {
+                // The top has all folders below it.
+                let under = which.under.filter(|folder| !folder.is_empty());
+                let wanted = Wanted { under, tag: which.tag, most: PROGRAMS, ..Wanted::default() };
+                programs.extend(store.programs(&wanted)?.into_iter().map(|own| (own.program, own.number)));
+            }
+            let asked = serde_json::to_string(&asked).unwrap_or_default();
+            store.create_job(&id, &asked, &author, &programs)?;
+            Ok(store.job(&id)?)
+        })
+        .await?;
+    Ok((StatusCode::ACCEPTED, [(LOCATION, place)], http::json(&told(&job))).into_response())
+}
+
+/// Lists jobs.
+pub(super) async fn list(
+    State(shared): State<Arc<Shared>>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::of(query.as_deref());
+    let before = query.one("before")?;
+    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    query.end("before, limit")?;
+    let jobs = shared.store(move |store| Ok(store.jobs(before.as_deref(), most)?)).await?;
+    let next = jobs.last().filter(|_| jobs.len() == most as usize).map(|last| last.id.clone());
+    let jobs: Vec<Value> = jobs.iter().map(told).collect();
+    Ok(http::json(&json!({ "jobs": jobs, "next": next })))
+}
+
+/// Tells how far a job is.
+pub(super) async fn read(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let job = shared.store(move |store| Ok(store.job(&id)?)).await?;
+    Ok(http::json(&told(&job)))
+}
+
+/// Cancels a job.
+pub(super) async fn cancel(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let job = shared
+        .store(move |store| {
+            store.job(&id)?;
+            store.cancel(&id)?;
+            Ok(store.job(&id)?)
+        })
+        .await?;
+    Ok(http::json(&told(&job)))
+}
+
+/// Lists what became of each program.
+pub(super) async fn results(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    let mut query = Query::of(query.as_deref());
+    let after = query.number("after")?.unwrap_or(0);
+    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    query.end("after, limit")?;
+    let all = shared
+        .store(move |store| {
+            store.job(&id)?;
+            Ok(store.results(&id, after, most)?)
+        })
+        .await?;
+    let next = all.last().filter(|_| all.len() == most as usize).map(|last| last.number);
+    let task = |of: &TaskResult| {
+        let [folder, name] = &of.place;
+        let result: Value = serde_json::from_str(&of.result).unwrap_or_default();
+        json!({
+            "number": of.number,
+            "program": of.program,
+            "folder": folder,
+            "name": name,
+            "revision": of.revision,
+            "state": of.state,
+            "translation": result.get("translation"),
+            "problem": result.get("problem"),
+        })
+    };
+    let results: Vec<Value> = all.iter().map(task).collect();
+    Ok(http::json(&json!({ "results": results, "next": next })))
+}
+
+/// What a reader of events has been told.
+struct Watching {
+    shared: Arc<Shared>,
+    id: String,
+    told: Option<Value>,
+    over: bool,
+}
+
+/// Tells how far a job is, as it goes on.
+pub(super) async fn events(
+    State(shared): State<Arc<Shared>>,
+    Path(id): Path<String>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let known = id.clone();
+    shared.store(move |store| Ok(store.job(&known)?)).await?;
+    let watching = Watching { shared, id, told: None, over: false };
+    let events = stream::unfold(watching, async |mut watching| {
+        loop {
+            if watching.over || ncc_exec::halt::is_asked() {
+                return None;
+            }
+            let id = watching.id.clone();
+            let job = watching.shared.store(move |store| Ok(store.job(&id)?)).await.ok()?;
+            let now = told(&job);
+            watching.over = job.ended.is_some();
+            if watching.told.as_ref() != Some(&now) {
+                let name = if watching.over { "end" } else { "progress" };
+                let event = Event::default().event(name).data(now.to_string());
+                watching.told = Some(now);
+                return Some((Ok::<_, Infallible>(event), watching));
+            }
+            tokio::time::sleep(GLANCE).await;
+        }
+    });
+    Ok(Sse::new(events).keep_alive(KeepAlive::default()).into_response())
+}

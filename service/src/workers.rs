@@ -1,0 +1,110 @@
+//! Workers of jobs: each claims a task, does it, and ends it.
+//!
+//! A worker that is asked to stop gives its task back. One that is killed cannot: its task is claimed again after a while.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use tokio::sync::watch;
+
+use crate::Shared;
+use crate::http::Problem;
+use crate::store::{End, Store, Task};
+use crate::translating::{Asked, translate};
+
+/// Seconds for which a task is claimed; more than it may take.
+const CLAIM: i64 = 60;
+
+/// How often a worker without work looks for some, and one with work whether its job has been cancelled.
+const GLANCE: Duration = Duration::from_millis(250);
+
+/// Why a task has not come to its end.
+enum Left {
+    Cancelled,
+    Stopped,
+}
+
+/// Works until it is asked to stop.
+pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
+    let Ok(name) = crate::api::new_id() else {
+        crate::log::fault("a worker has no name: the system gives no random bytes");
+        return;
+    };
+    while !*stop.borrow() {
+        let worker = name.clone();
+        let claimed = shared.store(move |store| Ok(store.claim(&worker, CLAIM)?)).await;
+        let task = match claimed {
+            Ok(Some(task)) => task,
+            Ok(None) => {
+                let _ = tokio::time::timeout(GLANCE, stop.changed()).await;
+                continue;
+            }
+            Err(problem) => {
+                crate::log::fault(&format!("a worker finds no task: {}", problem.detail()));
+                let _ = tokio::time::timeout(GLANCE * 20, stop.changed()).await;
+                continue;
+            }
+        };
+        let done = do_task(&shared, &task, &mut stop).await;
+        let worker = name.clone();
+        let ended = shared
+            .store(move |store| {
+                match done {
+                    Ok((end, result)) => {
+                        store.end_task(&worker, &task, end, &result.to_string())?;
+                    }
+                    Err(Left::Cancelled) => {
+                        store.end_task(&worker, &task, End::Cancelled, "")?;
+                    }
+                    Err(Left::Stopped) => store.give_back(&worker, &task)?,
+                }
+                Ok(())
+            })
+            .await;
+        if let Err(problem) = ended {
+            crate::log::fault(&format!("a task was not ended: {}", problem.detail()));
+        }
+    }
+}
+
+/// Does a task, unless its job is cancelled or the worker asked to stop meanwhile.
+async fn do_task(
+    shared: &Arc<Shared>,
+    task: &Task,
+    stop: &mut watch::Receiver<bool>,
+) -> Result<(End, Value), Left> {
+    let own = task.clone();
+    let mut work = std::pin::pin!(shared.compile_in_turn(move |store| Ok(translated(store, &own))));
+    loop {
+        tokio::select! {
+            done = &mut work => {
+                // A stop of the process has stopped the work too.
+                let ended = done.unwrap_or_else(|problem| (End::Refused, told(&problem)));
+                return if ncc_exec::halt::is_asked() { Err(Left::Stopped) } else { Ok(ended) };
+            }
+            _ = stop.wait_for(|stop| *stop) => return Err(Left::Stopped),
+            () = tokio::time::sleep(GLANCE) => {}
+        }
+        let job = task.job.clone();
+        if shared.store(move |store| Ok(store.job(&job)?.is_cancelled)).await.unwrap_or(false) {
+            return Err(Left::Cancelled);
+        }
+    }
+}
+
+/// Translates the program of a task.
+fn translated(store: &Store, task: &Task) -> (End, Value) {
+    let asked: Result<Asked, _> = serde_json::from_str(&task.asked);
+    let Ok(mut asked) = asked else { return (End::Refused, told(&Problem::fault())) };
+    (asked.program, asked.revision) = (task.program.clone(), Some(task.revision));
+    let made = crate::api::new_id().and_then(|id| translate(store, asked, id, &task.author));
+    match made {
+        Ok((made, is_new)) => (End::Done, json!({ "translation": made.id, "new": is_new })),
+        Err(problem) => (End::Refused, told(&problem)),
+    }
+}
+
+fn told(problem: &Problem) -> Value {
+    json!({ "problem": problem.body() })
+}
