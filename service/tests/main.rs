@@ -6,6 +6,7 @@
 mod attacks;
 mod book;
 mod client;
+mod jobs;
 mod limits;
 mod names;
 mod parts;

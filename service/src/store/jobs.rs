@@ -275,3 +275,76 @@ fn end_job(to: &Connection, id: &str) -> Result<(), StoreError> {
     .execute(params![id, now()])?;
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::contents::Receiving;
+    use super::super::programs::{Details, Said};
+    use super::*;
+
+    fn store(programs: usize) -> (tempfile::TempDir, Store) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let store = Store::open(&folder.path().join("a.sqlite")).expect("a store");
+        let all: Vec<(String, i64)> = (0..programs).map(|n| (format!("p{n}"), 1)).collect();
+        for (id, _) in &all {
+            let details = Details { name: id.clone(), ..Details::default() };
+            store
+                .create_program(id, &details, Receiving::default(), &Said::default(), None)
+                .expect("a program");
+        }
+        store.create_job("j", "{}", "ana", &all).expect("a job");
+        (folder, store)
+    }
+
+    fn counts(store: &Store) -> Vec<(String, i64)> {
+        store.job("j").expect("a job").counts.into_iter().collect()
+    }
+
+    #[test]
+    fn a_task_of_a_worker_that_has_died_is_done_by_another_once() {
+        let (_folder, store) = store(1);
+        // Its time is over before it begins.
+        let first = store.claim("dead", -1).expect("a store").expect("a task");
+        let second = store.claim("alive", 60).expect("a store").expect("the task again");
+        assert_eq!(first, second);
+        assert_eq!(store.claim("third", 60).expect("a store"), None);
+        assert!(!store.end_task("dead", &first, End::Done, "late").expect("a store"));
+        assert!(store.end_task("alive", &second, End::Done, "first").expect("a store"));
+        assert!(!store.end_task("alive", &second, End::Done, "again").expect("a store"));
+        let results = store.results("j", 0, 10).expect("results");
+        assert_eq!((results[0].state.as_str(), results[0].result.as_str()), ("done", "first"));
+        assert!(store.job("j").expect("a job").ended.is_some());
+    }
+
+    #[test]
+    fn a_cancelled_job_begins_no_task() {
+        let (_folder, store) = store(3);
+        let running = store.claim("a", 60).expect("a store").expect("a task");
+        let left = store.claim("dead", -1).expect("a store").expect("a task");
+        assert_ne!(running.number, left.number);
+        store.cancel("j").expect("a store");
+        assert_eq!(counts(&store), [("cancelled".to_owned(), 1), ("running".to_owned(), 2)]);
+        // The one of a dead worker is swept away when another one looks for work.
+        assert_eq!(store.claim("b", 60).expect("a store"), None);
+        assert_eq!(counts(&store), [("cancelled".to_owned(), 2), ("running".to_owned(), 1)]);
+        assert!(store.job("j").expect("a job").ended.is_none());
+        assert!(store.end_task("a", &running, End::Done, "").expect("a store"));
+        assert!(store.job("j").expect("a job").ended.is_some());
+    }
+
+    #[test]
+    fn a_task_that_is_given_back_waits() {
+        let (_folder, store) = store(1);
+        let task = store.claim("a", 60).expect("a store").expect("a task");
+        store.give_back("b", &task).expect("a store");
+        assert_eq!(counts(&store), [("running".to_owned(), 1)]);
+        store.give_back("a", &task).expect("a store");
+        assert_eq!(counts(&store), [("waiting".to_owned(), 1)]);
+    }
+
+    #[test]
+    fn a_job_without_programs_is_over() {
+        let (_folder, store) = store(0);
+        assert!(store.job("j").expect("a job").ended.is_some());
+    }
+}
