@@ -1,8 +1,5 @@
 //! The service over sockets: what the sources list, and what nobody should be able to do.
 #![allow(clippy::print_stdout, reason = "a test that is skipped says so")]
-// What was left out is to be seen.
-#![allow(clippy::print_stdout)]
-
 mod attacks;
 mod book;
 mod client;
