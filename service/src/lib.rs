@@ -164,8 +164,12 @@ impl Shared {
         work: impl FnOnce(&Shelf) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
         let shelf = self.shelf.clone();
-        let done = self.pool.run(move || work(&shelf)).await;
-        done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
+        match self.pool.run(move || work(&shelf)).await {
+            // A program that was interrupted with the process is not a wrong one.
+            Ok(Err(_)) if ncc_exec::halt::is_asked() => Err(Problem::busy("the service ends")),
+            Ok(done) => done,
+            Err(not) => Err(Problem::of_work(not, self.pool.limit())),
+        }
     }
 }
 

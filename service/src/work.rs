@@ -78,6 +78,7 @@ impl Pool {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::Instant;
 
     use super::*;
@@ -100,6 +101,24 @@ mod tests {
         let begun = Instant::now();
         assert_eq!(runtime().block_on(pool.run(until_asked)), Err(NotDone::TooLong));
         assert!(begun.elapsed() < Duration::from_secs(10));
+    }
+
+    #[test]
+    fn a_thread_is_taken_until_its_work_has_stopped() {
+        let pool = Pool::new(1, 1, Duration::from_secs(10));
+        let ended = Arc::new(AtomicBool::new(false));
+        let seen = runtime().block_on(async {
+            let deaf = ended.clone();
+            let first = pool.run(move || {
+                std::thread::sleep(Duration::from_millis(300));
+                deaf.store(true, Ordering::SeqCst);
+            });
+            // Nobody waits for the first any more.
+            let gone = tokio::time::timeout(Duration::from_millis(50), first).await;
+            assert!(gone.is_err());
+            pool.run(move || ended.load(Ordering::SeqCst)).await
+        });
+        assert_eq!(seen, Ok(true));
     }
 
     #[test]

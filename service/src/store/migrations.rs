@@ -30,6 +30,10 @@ pub(super) fn run(connection: &mut Connection) -> Result<(), StoreError> {
     let taken = usize::try_from(number("user_version")?).unwrap_or(usize::MAX);
     let left =
         STEPS.get(taken..).ok_or_else(|| StoreError::Database("it was written by a later ncc".to_owned()))?;
+    // A database that is up to date is opened on a full disk too.
+    if left.is_empty() {
+        return Ok(());
+    }
     for step in left {
         change.execute_batch(step)?;
     }

@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""Kills `ncc serve` at random moments while documents are written, and looks for each acknowledged write afterwards.
+
+    python3 service/tests/kill.py BINARY ROUNDS [--full-disk FOLDER]
+
+Each round starts the server on the database of the round before. Writers POST, PUT and DELETE documents of their own, a few
+names each; then the process is sent SIGKILL. After the next start each document must be the last one that was acknowledged,
+or the one that was being written when the process ended; its parts must all be of one document, and its tag theirs.
+
+With `--full-disk` a folder on a small file system is filled instead: writes must end with 507, and none that was
+acknowledged may be lost, also after a SIGKILL and a start on the full disk.
+
+The exit code is 0 if nothing was lost.
+"""
+
+import hashlib
+import http.client
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+WRITERS = 6
+NAMES = 4
+WHOLE = "application/vnd.ncc.document+json"
+
+
+class Server:
+    def __init__(self, binary, database):
+        self.process = subprocess.Popen(
+            [binary, "serve", "--listen", "127.0.0.1:0", "--database", database],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        line = self.process.stdout.readline().strip()
+        if not line.startswith("http://"):
+            sys.exit("the server did not start: " + line + self.process.stderr.read())
+        self.port = int(line.rsplit(":", 1)[1])
+
+    def connect(self):
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+        self.process.stdout.close()
+        self.process.stderr.close()
+
+
+def payload(name, mark, blocks):
+    """A payload whose blocks all have the mark as their tool."""
+    block = {
+        "gcode": f"T{mark}", "function_name": "SELECT_TOOL",
+        "x0": 0.0, "y0": 0.0, "z0": 0.0, "x1": 0.0, "y1": 0.0, "z1": 0.0,
+        "cut_offset": 0, "feed": 0.0, "speed": 0.0, "tool": mark,
+        "dx": 0.0, "dy": 0.0, "dz": 0.0, "distance": 0.0, "time": 0.0, "timestamp": 0.0,
+        "parameters": {},
+    }
+    return json.dumps({"prog_name": name, "machine_name": "", "dialect": "mach9", "blocks": [block] * blocks})
+
+
+def document(name, mark, blocks):
+    """A document whose parts all have the mark, and its tag: SHA-256 of its names and parts, each after its length."""
+    parts = {
+        "after": payload(name, mark, blocks),
+        "before": payload(name, mark, 1),
+        "cmf": f"SELECT_TOOL({mark})\n" * blocks,
+    }
+    digest = hashlib.sha256()
+    for piece in ["", "mach9"] + [piece for part in sorted(parts) for piece in (part, parts[part])]:
+        digest.update(len(piece.encode()).to_bytes(8, "little") + piece.encode())
+    return {"machine": "", "dialect": "mach9", "parts": parts}, digest.hexdigest()
+
+
+class Writer(threading.Thread):
+    """Writes documents of its own. `states[name]` are those that may be there: tags, or None for no document."""
+
+    def __init__(self, server, number, states, seed, largest):
+        super().__init__()
+        self.server, self.number, self.states, self.largest = server, number, states, largest
+        self.random = random.Random(seed)
+        self.acknowledged = 0
+        self.full = 0
+        self.wrong = []
+        self.stop = False
+
+    def run(self):
+        try:
+            connection = self.server.connect()
+            while not self.stop:
+                self.write(connection)
+        except (OSError, http.client.HTTPException):
+            pass
+
+    def write(self, connection):
+        name = f"w{self.number}-{self.random.randrange(NAMES)}"
+        there = self.states.get(name, [None])
+        blocks = self.random.choice([1, 10, self.largest])
+        body, tag = document(name, self.random.randrange(1, 10**6), blocks)
+        # Which of two documents is there is not known before it has been asked for: PUT and DELETE need none to be known.
+        known = there[0] if len(there) == 1 else "?"
+        if known is None:
+            method, after, status = "POST", tag, 201
+        elif known == "?":
+            return self.look(connection, name)
+        elif self.random.random() < 0.3:
+            method, after, status = "DELETE", None, 204
+        else:
+            method, after, status = "PUT", tag, 204
+        # From here on both may be there, until it is acknowledged.
+        self.states[name] = [known, after]
+        headers = {} if known is None else {"If-Match": f'"{known}"'}
+        if method == "DELETE":
+            connection.request(method, f"/persistence/{name}", headers=headers)
+        else:
+            headers["Content-Type"] = WHOLE
+            connection.request(method, f"/persistence/{name}", body=json.dumps(body), headers=headers)
+        answer = connection.getresponse()
+        text = answer.read()
+        if answer.status == status:
+            self.states[name] = [after]
+            self.acknowledged += 1
+        elif answer.status == 507:
+            self.states[name] = [known]
+            self.full += 1
+            time.sleep(0.01)
+        else:
+            self.wrong.append(f"{method} {name}: {answer.status} {text[:300]}")
+            self.states[name] = [known, after]
+            self.stop = True
+
+    def look(self, connection, name):
+        self.states[name] = [whole(connection, name, self.wrong)]
+
+
+def whole(connection, name, wrong):
+    """The tag of the document under a name, after its parts have been compared with it and each other."""
+    connection.request("GET", f"/persistence/{name}?form=whole")
+    answer = connection.getresponse()
+    text = answer.read()
+    if answer.status == 404:
+        return None
+    if answer.status != 200:
+        wrong.append(f"GET {name}: {answer.status} {text[:300]}")
+        return "?"
+    tag = answer.headers["ETag"].strip('"').split("-")[0]
+    parts = json.loads(text)["parts"]
+    after = json.loads(parts["after"])
+    mark, blocks = after["blocks"][0]["tool"], len(after["blocks"])
+    made, expected = document(name, mark, blocks)
+    if made["parts"] != parts or expected != tag:
+        wrong.append(f"{name} is not whole: mark {mark}, {blocks} blocks, tag {tag}")
+    return tag
+
+
+def compare(server, states):
+    """What is wrong with what is there."""
+    wrong = []
+    connection = server.connect()
+    for name, may in sorted(states.items()):
+        tag = whole(connection, name, wrong)
+        if tag not in may:
+            wrong.append(f"{name}: there is {tag}, and there may be {may}")
+        states[name] = [tag]
+    connection.request("GET", "/persistence?limit=1000")
+    listed = {row["prog_name"]: row["tag"] for row in json.loads(connection.getresponse().read())["documents"]}
+    there = {name: tag for name, [tag] in states.items() if tag is not None}
+    if listed != there:
+        wrong.append(f"the list has {sorted(listed)}, and there are {sorted(there)}")
+    connection.close()
+    return wrong
+
+
+def write_for(server, states, seconds, seed, largest):
+    writers = [Writer(server, k, states, seed + k, largest) for k in range(WRITERS)]
+    for writer in writers:
+        writer.start()
+    time.sleep(seconds)
+    return writers
+
+
+def killed(binary, rounds):
+    folder = tempfile.TemporaryDirectory()
+    database = os.path.join(folder.name, "ncc.sqlite")
+    states, acknowledged, open_writes, wrong = {}, 0, 0, []
+    chance = random.Random(20230711)
+    for k in range(rounds):
+        server = Server(binary, database)
+        wrong += [f"round {k}: {words}" for words in compare(server, states)]
+        # Some documents are larger than a piece of the database (1 MiB).
+        writers = write_for(server, states, chance.uniform(0.0, 0.4), k * WRITERS, 4000 if k % 10 == 0 else 200)
+        server.kill()
+        for writer in writers:
+            writer.join()
+            acknowledged += writer.acknowledged
+            wrong += [f"round {k}: {words}" for words in writer.wrong]
+        open_writes += sum(len(may) > 1 for may in states.values())
+        if wrong:
+            break
+    server = Server(binary, database)
+    wrong += compare(server, states)
+    server.kill()
+    print(f"{k + 1} rounds, {acknowledged} writes acknowledged, {open_writes} broken off, {len(wrong)} faults")
+    return wrong
+
+
+def full(binary, folder):
+    database = os.path.join(folder, "ncc.sqlite")
+    states, acknowledged, refused, wrong = {}, 0, 0, []
+    for k in range(5):
+        server = Server(binary, database)
+        wrong += [f"start {k}: {words}" for words in compare(server, states)]
+        writers = write_for(server, states, 3, k * WRITERS, 4000)
+        for writer in writers:
+            writer.stop = True
+        for writer in writers:
+            writer.join()
+            acknowledged += writer.acknowledged
+            refused += writer.full
+            wrong += [f"start {k}: {words}" for words in writer.wrong]
+        wrong += [f"running {k}: {words}" for words in compare(server, states)]
+        server.kill()
+    print(f"{acknowledged} writes acknowledged, {refused} refused with 507, {len(wrong)} faults")
+    if refused == 0:
+        wrong.append("the disk was never full: take a smaller one")
+    return wrong
+
+
+def main():
+    if len(sys.argv) == 5 and sys.argv[3] == "--full-disk":
+        wrong = full(sys.argv[1], sys.argv[4])
+    elif len(sys.argv) == 3:
+        wrong = killed(sys.argv[1], int(sys.argv[2]))
+    else:
+        sys.exit(__doc__)
+    for words in wrong:
+        print(words)
+    sys.exit(1 if wrong else 0)
+
+
+main()
