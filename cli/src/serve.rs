@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use ncc_driver::problem::Problem;
-use ncc_service::{OpenError, Part, Service};
+use ncc_service::{OpenError, Part, Place, Service};
 
 use crate::files;
 
@@ -16,6 +16,8 @@ use crate::files;
 #[command(after_help = "\
 Examples:
   ncc serve                                     all services, the documents in ncc.sqlite
+  NCC_DATABASE_URL=postgres://ncc@localhost/ncc ncc serve
+                                                the documents in a PostgreSQL database
   ncc serve --only persistence --listen 127.0.0.1:8275
   ncc serve --only transpiler --persistence http://127.0.0.1:8275
 
@@ -24,9 +26,9 @@ pub struct Serve {
     /// Address and port; port 0 is any that is free
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8274")]
     pub listen: SocketAddr,
-    /// The file of the database; it is made where it is not there
-    #[arg(long, value_name = "FILE", default_value = "ncc.sqlite")]
-    pub database: PathBuf,
+    /// The file of the database; it is made where it is not there [default: the server that NCC_DATABASE_URL names, or ncc.sqlite]
+    #[arg(long, value_name = "FILE")]
+    pub database: Option<PathBuf>,
     /// The name under which changes are kept [default: that of the user of this computer]
     #[arg(long, value_name = "NAME")]
     pub author: Option<String>,
@@ -49,6 +51,31 @@ pub enum Only {
     Output,
 }
 
+/// The variable that names a PostgreSQL server. Its password is no argument, which others could read.
+const URL: &str = "NCC_DATABASE_URL";
+
+/// Where the database is.
+fn place(args: &Serve) -> Result<Place, Problem> {
+    let wrong = || {
+        Problem::usage(
+            format!("{URL} is no address of a database"),
+            "postgres://USER:PASSWORD@HOST/DATABASE, or sqlite:FILE",
+        )
+    };
+    let url = std::env::var_os(URL).filter(|url| !url.is_empty());
+    match (&args.database, url) {
+        (Some(file), _) => Ok(Place::File(file.clone())),
+        (None, None) => Ok(Place::File(PathBuf::from("ncc.sqlite"))),
+        (None, Some(url)) => {
+            let url = url.into_string().map_err(|_| wrong())?;
+            if url.starts_with("postgres://") || url.starts_with("postgresql://") {
+                return Ok(Place::Server(url));
+            }
+            url.strip_prefix("sqlite:").map(|file| Place::File(PathBuf::from(file))).ok_or_else(wrong)
+        }
+    }
+}
+
 /// The name under which changes are kept.
 fn author(args: &Serve) -> String {
     let of_the_computer = || ["USER", "USERNAME"].iter().find_map(|name| std::env::var(name).ok());
@@ -58,7 +85,6 @@ fn author(args: &Serve) -> String {
 
 /// Which services the command line asks for.
 fn part(args: &Serve) -> Result<Part, Problem> {
-    let database = args.database.clone();
     let elsewhere = || {
         let needed = || Problem::usage("this service needs the address of PERSISTENCE", "--persistence URL");
         let address = args.persistence.clone().ok_or_else(needed)?;
@@ -66,8 +92,8 @@ fn part(args: &Serve) -> Result<Part, Problem> {
         if address.starts_with("http://") { Ok(address) } else { Err(plain) }
     };
     let part = match args.only {
-        None => Part::All { database },
-        Some(Only::Persistence) => Part::Persistence { database },
+        None => Part::All { database: place(args)? },
+        Some(Only::Persistence) => Part::Persistence { database: place(args)? },
         Some(Only::Transpiler) => return Ok(Part::Transpiler { persistence: elsewhere()? }),
         Some(Only::Output) => return Ok(Part::Output { persistence: elsewhere()? }),
     };
@@ -96,8 +122,8 @@ pub fn run(args: &Serve) -> Result<(), Problem> {
         ),
         OpenError::Database(reason) => Problem {
             exit: ncc_driver::problem::Exit::File,
-            message: format!("cannot use the database {}: {reason}", args.database.display()),
-            help: vec!["name another file: --database FILE".to_owned()],
+            message: format!("cannot use the database: {reason}"),
+            help: vec![format!("name a file: --database FILE, or a server: {URL}=postgres://…")],
         },
     })?;
     files::to_stdout(&mut |out| writeln!(out, "{}", service.address()))?;

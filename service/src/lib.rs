@@ -24,7 +24,6 @@ mod workers;
 
 use std::io;
 use std::net::{SocketAddr, TcpListener};
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -35,6 +34,7 @@ use tokio::sync::watch;
 use self::case_study::{Remote, Shelf};
 use self::http::arrival::{self, Arrivals};
 use self::http::{Problem, connections, gate};
+pub use self::store::Place;
 use self::store::Store;
 use self::work::Pool;
 
@@ -76,13 +76,13 @@ const STACK: usize = 8 << 20;
 pub enum Part {
     /// All of them.
     All {
-        /// The file of the database; it is made where it is not there.
-        database: PathBuf,
+        /// Where the database is.
+        database: Place,
     },
     /// PERSISTENCE and the machines' profiles.
     Persistence {
         /// As of [`Part::All`].
-        database: PathBuf,
+        database: Place,
     },
     /// TRANSPILER.
     Transpiler {

@@ -2,10 +2,11 @@
 
 use std::io::{self, Read, Write};
 use std::net::{SocketAddr, TcpStream};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-use ncc_service::{Limits, Part, Service};
+use ncc_service::{Limits, Part, Place, Service};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -56,6 +57,18 @@ pub(crate) fn repository(path: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
+/// A database of its own: this file, or a new one of the server at `NCC_TEST_POSTGRES` (`postgres://user@host/database`),
+/// where the same tests hold.
+pub(crate) fn place(file: &Path) -> Place {
+    static MADE: AtomicU32 = AtomicU32::new(0);
+    let Ok(server) = std::env::var("NCC_TEST_POSTGRES") else { return Place::File(file.to_owned()) };
+    let name = format!("ncc_{}_{}", std::process::id(), MADE.fetch_add(1, Ordering::Relaxed));
+    let mut client = postgres::Client::connect(&server, postgres::NoTls).expect("the server of the tests");
+    client.batch_execute(&format!("CREATE DATABASE {name}")).expect("a database");
+    let (address, _) = server.rsplit_once('/').expect("an address with a database");
+    Place::Server(format!("{address}/{name}"))
+}
+
 impl Server {
     pub(crate) fn all() -> Server {
         Server::limited(Limits::default())
@@ -63,7 +76,7 @@ impl Server {
 
     pub(crate) fn limited(limits: Limits) -> Server {
         let folder = tempfile::tempdir().expect("a folder");
-        let part = Part::All { database: folder.path().join("ncc.sqlite") };
+        let part = Part::All { database: place(&folder.path().join("ncc.sqlite")) };
         Server { _folder: Some(folder), ..Server::of(&part, limits) }
     }
 

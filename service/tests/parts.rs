@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use ncc_service::{Limits, OpenError, Part, Service};
+use ncc_service::{Limits, OpenError, Part, Place, Service};
 
-use crate::client::{PROGRAM, Server, repository};
+use crate::client::{PROGRAM, Server, place, repository};
 
 struct Three {
     persistence: Server,
@@ -15,7 +15,7 @@ struct Three {
 
 fn three() -> Three {
     let folder = tempfile::tempdir().expect("a folder");
-    let part = Part::Persistence { database: folder.path().join("ncc.sqlite") };
+    let part = Part::Persistence { database: place(&folder.path().join("ncc.sqlite")) };
     let persistence = Server::of(&part, Limits::default());
     let there = format!("http://{}", persistence.address);
     let transpiler = Server::of(&Part::Transpiler { persistence: there.clone() }, Limits::default());
@@ -139,7 +139,7 @@ fn without_persistence_there_is_no_document() {
 #[test]
 fn a_server_opens_on_this_computer_alone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let all = |file: &str| Part::All { database: folder.path().join(file) };
+    let all = |file: &str| Part::All { database: Place::File(folder.path().join(file)) };
     let open =
         |address: &str, part: &Part| Service::open(address.parse().expect("an address"), part, "ana").err();
     for address in ["0.0.0.0:0", "192.0.2.1:0", "[::]:0"] {

@@ -3,10 +3,10 @@
 //! They come and go in pieces, so that a large program is never in memory as a whole. Without its digest a content is being
 //! received; what has been left so for a day is thrown away when the store is opened.
 
-use rusqlite::{Connection, OptionalExtension, params};
 use sha2::{Digest, Sha256};
 
 use super::documents::now;
+use super::session::{Session, values};
 use super::{Store, StoreError, hex};
 
 /// Bytes of a piece at most.
@@ -66,7 +66,7 @@ impl Store {
     pub(crate) fn forget(&self, aside: Option<i64>) -> Result<(), StoreError> {
         let Some(id) = aside else { return Ok(()) };
         self.database.write(|to| {
-            to.execute("DELETE FROM content WHERE id = ?1 AND sha256 IS NULL", [id])?;
+            to.change("DELETE FROM content WHERE id = $1 AND sha256 IS NULL", values![id])?;
             Ok(())
         })
     }
@@ -74,21 +74,24 @@ impl Store {
     /// A piece of a content, or none behind the last one.
     pub(crate) fn piece(&self, content: &Content, number: u32) -> Result<Option<Vec<u8>>, StoreError> {
         self.database.read(|from| {
-            let mut piece =
-                from.prepare_cached("SELECT bytes FROM content_piece WHERE content = ?1 AND number = ?2")?;
-            Ok(piece.query_row(params![content.id, number], |row| row.get(0)).optional()?)
+            let piece = from.maybe_row(
+                "SELECT bytes FROM content_piece WHERE content = $1 AND number = $2",
+                values![content.id, number],
+            )?;
+            piece.map(|mut row| row.bytes(0)).transpose()
         })
     }
 
     /// A content as a whole.
     pub(crate) fn whole(&self, content: &Content) -> Result<Vec<u8>, StoreError> {
         self.database.read(|from| {
-            let mut pieces =
-                from.prepare_cached("SELECT bytes FROM content_piece WHERE content = ?1 ORDER BY number")?;
+            let pieces = from.rows(
+                "SELECT bytes FROM content_piece WHERE content = $1 ORDER BY number",
+                values![content.id],
+            )?;
             let mut whole = Vec::with_capacity(usize::try_from(content.bytes).unwrap_or_default());
-            let mut rows = pieces.query([content.id])?;
-            while let Some(row) = rows.next()? {
-                whole.extend_from_slice(row.get_ref(0)?.as_blob().map_err(rusqlite::Error::from)?);
+            for mut piece in pieces {
+                whole.extend_from_slice(&piece.bytes(0)?);
             }
             Ok(whole)
         })
@@ -98,27 +101,29 @@ impl Store {
     pub(super) fn tidy(&self) -> Result<(), StoreError> {
         let before = now() - DAY;
         self.database.write(|to| {
-            to.execute("DELETE FROM content WHERE sha256 IS NULL AND begun < ?1", [before])?;
+            to.change("DELETE FROM content WHERE sha256 IS NULL AND begun < $1", values![before])?;
             Ok(())
         })
     }
 }
 
 /// Writes what has been received.
-fn write(to: &Connection, receiving: &mut Receiving) -> Result<(), StoreError> {
+fn write(to: &dyn Session, receiving: &mut Receiving) -> Result<(), StoreError> {
     let id = match receiving.id {
         Some(id) => id,
-        None => to.query_row(
-            "INSERT INTO content (sha256, bytes, begun) VALUES (NULL, 0, ?1) RETURNING id",
-            [now()],
-            |row| row.get(0),
-        )?,
+        None => to
+            .row(
+                "INSERT INTO content (sha256, bytes, begun) VALUES (NULL, 0, $1) RETURNING id",
+                values![now()],
+            )?
+            .int(0)?,
     };
-    let mut piece =
-        to.prepare_cached("INSERT INTO content_piece (content, number, bytes) VALUES (?1, ?2, ?3)")?;
     let mut pieces = receiving.pieces;
     for bytes in receiving.rest.chunks(PIECE) {
-        piece.execute(params![id, pieces, bytes])?;
+        to.change(
+            "INSERT INTO content_piece (content, number, bytes) VALUES ($1, $2, $3)",
+            values![id, pieces, bytes],
+        )?;
         pieces += 1;
     }
     (receiving.id, receiving.pieces) = (Some(id), pieces);
@@ -127,16 +132,14 @@ fn write(to: &Connection, receiving: &mut Receiving) -> Result<(), StoreError> {
 }
 
 /// The content that has been received: the one that is there already, or else this one.
-pub(super) fn settle(to: &Connection, mut receiving: Receiving) -> Result<Content, StoreError> {
+pub(super) fn settle(to: &dyn Session, mut receiving: Receiving) -> Result<Content, StoreError> {
     let sha256 = hex(&std::mem::take(&mut receiving.digest).finalize());
-    let there = to
-        .prepare_cached("SELECT id FROM content WHERE sha256 = ?1")?
-        .query_row([&sha256], |row| row.get::<_, i64>(0))
-        .optional()?;
+    let there = to.maybe_row("SELECT id FROM content WHERE sha256 = $1", values![&sha256])?;
     let bytes = receiving.bytes;
-    if let Some(id) = there {
+    if let Some(mut there) = there {
+        let id = there.int(0)?;
         if let Some(own) = receiving.id {
-            to.execute("DELETE FROM content WHERE id = ?1", [own])?;
+            to.change("DELETE FROM content WHERE id = $1", values![own])?;
         }
         return Ok(Content { id, sha256, bytes });
     }
@@ -144,8 +147,7 @@ pub(super) fn settle(to: &Connection, mut receiving: Receiving) -> Result<Conten
     // It has been thrown away if it took longer than a day.
     let id = receiving.id.ok_or(StoreError::Absent)?;
     let length = i64::try_from(bytes).unwrap_or(i64::MAX);
-    let known = to
-        .prepare_cached("UPDATE content SET sha256 = ?1, bytes = ?2 WHERE id = ?3")?
-        .execute(params![sha256, length, id])?;
+    let known =
+        to.change("UPDATE content SET sha256 = $1, bytes = $2 WHERE id = $3", values![&sha256, length, id])?;
     if known == 1 { Ok(Content { id, sha256, bytes }) } else { Err(StoreError::Absent) }
 }

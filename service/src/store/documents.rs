@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::{Deserialize, Serialize};
 
+use super::session::{Row, Session, values};
 use super::{Store, StoreError, digest};
 
 /// Bytes of a piece at most.
@@ -103,15 +103,15 @@ impl Store {
         self.database.read(|from| {
             let about = about(from, name)?;
             let mut parts = Parts::new();
-            let mut pieces = from.prepare_cached(
-                "SELECT bytes FROM document_piece WHERE document = ?1 AND part = ?2 ORDER BY number",
-            )?;
             for part in wanted {
+                let pieces = from.rows(
+                    "SELECT bytes FROM document_piece WHERE document = $1 AND part = $2 ORDER BY number",
+                    values![about.id, *part],
+                )?;
+                // An empty part has an empty piece.
                 let mut whole = None;
-                let mut rows = pieces.query(params![about.id, part])?;
-                while let Some(row) = rows.next()? {
-                    let piece = row.get_ref(0)?.as_blob().map_err(rusqlite::Error::from)?;
-                    whole.get_or_insert_with(Vec::new).extend_from_slice(piece);
+                for mut piece in pieces {
+                    whole.get_or_insert_with(Vec::new).extend_from_slice(&piece.bytes(0)?);
                 }
                 parts.extend(whole.map(|whole| ((*part).to_owned(), whole)));
             }
@@ -122,20 +122,20 @@ impl Store {
     /// Documents in the order of their names, those after a name, so many at most.
     pub(crate) fn list(&self, after: &str, most: u32) -> Result<Vec<Listed>, StoreError> {
         self.database.read(|from| {
-            let mut all = from.prepare_cached(
-                "SELECT name, machine, dialect, tag, changed FROM document WHERE name > ?1 ORDER BY name LIMIT ?2",
-            )?;
-            let listed = |row: &Row| {
+            let listed = |mut row: Row| {
                 Ok(Listed {
-                    name: row.get(0)?,
-                    machine: row.get(1)?,
-                    dialect: row.get(2)?,
-                    tag: row.get(3)?,
-                    changed: row.get(4)?,
+                    name: row.text(0)?,
+                    machine: row.text(1)?,
+                    dialect: row.text(2)?,
+                    tag: row.text(3)?,
+                    changed: row.int(4)?,
                 })
             };
-            let rows = all.query_map(params![after, most], listed)?;
-            Ok(rows.collect::<Result<_, _>>()?)
+            from.read(
+                "SELECT name, machine, dialect, tag, changed FROM document WHERE name > $1 ORDER BY name LIMIT $2",
+                values![after, most],
+                listed,
+            )
         })
     }
 }
@@ -147,21 +147,19 @@ pub(super) fn now() -> i64 {
         .map_or(0, |since| i64::try_from(since.as_secs()).unwrap_or(0))
 }
 
-fn tag_of(from: &Connection, name: &str) -> Result<Option<String>, StoreError> {
-    let mut tag = from.prepare_cached("SELECT tag FROM document WHERE name = ?1")?;
-    Ok(tag.query_row([name], |row| row.get(0)).optional()?)
+fn tag_of(from: &dyn Session, name: &str) -> Result<Option<String>, StoreError> {
+    let found = from.maybe_row("SELECT tag FROM document WHERE name = $1", values![name])?;
+    found.map(|mut row| row.text(0)).transpose()
 }
 
-fn about(from: &Connection, name: &str) -> Result<Document, StoreError> {
-    let mut document =
-        from.prepare_cached("SELECT id, machine, dialect, tag FROM document WHERE name = ?1")?;
-    Ok(document.query_row([name], |row| {
-        Ok(Document { id: row.get(0)?, machine: row.get(1)?, dialect: row.get(2)?, tag: row.get(3)? })
-    })?)
+fn about(from: &dyn Session, name: &str) -> Result<Document, StoreError> {
+    let mut row =
+        from.row("SELECT id, machine, dialect, tag FROM document WHERE name = $1", values![name])?;
+    Ok(Document { id: row.int(0)?, machine: row.text(1)?, dialect: row.text(2)?, tag: row.text(3)? })
 }
 
 fn insert(
-    to: &Connection,
+    to: &dyn Session,
     name: &str,
     [machine, dialect]: [&str; 2],
     parts: &Parts,
@@ -169,24 +167,26 @@ fn insert(
     let said = [machine, dialect].map(str::as_bytes);
     let named = parts.iter().flat_map(|(part, bytes)| [part.as_bytes(), bytes.as_slice()]);
     let tag = digest(&said.into_iter().chain(named).collect::<Vec<_>>());
-    let mut document = to.prepare_cached(
-        "INSERT INTO document (name, machine, dialect, tag, changed) VALUES (?1, ?2, ?3, ?4, ?5) RETURNING id",
-    )?;
-    let id: i64 = document.query_row(params![name, machine, dialect, tag, now()], |row| row.get(0))?;
-    let mut piece = to.prepare_cached(
-        "INSERT INTO document_piece (document, part, number, bytes) VALUES (?1, ?2, ?3, ?4)",
-    )?;
+    let id = to
+        .row(
+            "INSERT INTO document (name, machine, dialect, tag, changed) VALUES ($1, $2, $3, $4, $5) RETURNING id",
+            values![name, machine, dialect, &tag, now()],
+        )?
+        .int(0)?;
     for (part, bytes) in parts {
         let empty: &[u8] = &[];
         let pieces = bytes.chunks(PIECE).chain(bytes.is_empty().then_some(empty));
         for (number, bytes) in pieces.enumerate() {
-            piece.execute(params![id, part, number as i64, bytes])?;
+            to.change(
+                "INSERT INTO document_piece (document, part, number, bytes) VALUES ($1, $2, $3, $4)",
+                values![id, part, number as i64, bytes],
+            )?;
         }
     }
     Ok(tag)
 }
 
-fn remove(from: &Connection, name: &str) -> Result<(), StoreError> {
-    from.prepare_cached("DELETE FROM document WHERE name = ?1")?.execute([name])?;
+fn remove(from: &dyn Session, name: &str) -> Result<(), StoreError> {
+    from.change("DELETE FROM document WHERE name = $1", values![name])?;
     Ok(())
 }

@@ -5,9 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use rusqlite::{Connection, OptionalExtension, Row, params};
-
 use super::documents::now;
+use super::session::{Row, Session, values};
 use super::{Store, StoreError};
 
 /// A job.
@@ -94,15 +93,15 @@ impl Store {
         programs: &[(String, i64)],
     ) -> Result<(), StoreError> {
         self.database.write(|to| {
-            to.execute(
-                "INSERT INTO job (id, asked, author, made, ended) VALUES (?1, ?2, ?3, ?4, ?5)",
-                params![id, asked, author, now(), programs.is_empty().then(now)],
-            )?;
-            let mut task = to.prepare_cached(
-                "INSERT INTO task (job, number, program, revision, state) VALUES (?1, ?2, ?3, ?4, 'waiting')",
+            to.change(
+                "INSERT INTO job (id, asked, author, made, ended) VALUES ($1, $2, $3, $4, $5)",
+                values![id, asked, author, now(), programs.is_empty().then(now)],
             )?;
             for (number, (program, revision)) in programs.iter().enumerate() {
-                task.execute(params![id, number as i64 + 1, program, revision])?;
+                to.change(
+                    "INSERT INTO task (job, number, program, revision, state) VALUES ($1, $2, $3, $4, 'waiting')",
+                    values![id, number as i64 + 1, program, *revision],
+                )?;
             }
             Ok(())
         })
@@ -112,45 +111,41 @@ impl Store {
     pub(crate) fn claim(&self, worker: &str, seconds: i64) -> Result<Option<Task>, StoreError> {
         // Most of the time there is none, and nobody waits for the writer.
         let is_open = self.database.read(|from| {
-            let mut open = from.prepare_cached(
-                "SELECT 1 FROM task WHERE state = 'waiting' OR state = 'running' AND until < ?1",
-            )?;
-            Ok(open.exists([now()])?)
+            let sql =
+                "SELECT number FROM task WHERE state = 'waiting' OR state = 'running' AND until < $1 LIMIT 1";
+            Ok(from.maybe_row(sql, values![now()])?.is_some())
         })?;
         if !is_open {
             return Ok(None);
         }
         self.database.write(|to| {
-            let mut left = to.prepare_cached(
-                "UPDATE task SET state = 'cancelled' WHERE state = 'running' AND until < ?1
+            let left = to.read(
+                "UPDATE task SET state = 'cancelled' WHERE state = 'running' AND until < $1
                  AND job IN (SELECT id FROM job WHERE is_cancelled) RETURNING job",
+                values![now()],
+                |mut row| row.text(0),
             )?;
-            let left: Vec<String> = left.query_map([now()], |row| row.get(0))?.collect::<Result<_, _>>()?;
             left.iter().try_for_each(|job| end_job(to, job))?;
-            let mut claim = to.prepare_cached(
-                "UPDATE task SET state = 'running', worker = ?1, until = ?2 WHERE (job, number) = (
+            let time = now();
+            let claimed = to.maybe_row(
+                "UPDATE task SET state = 'running', worker = $1, until = $2 WHERE (job, number) IN (
                      SELECT t.job, t.number FROM task t JOIN job j ON j.id = t.job
-                     WHERE NOT j.is_cancelled AND (t.state = 'waiting' OR t.state = 'running' AND t.until < ?3)
+                     WHERE NOT j.is_cancelled AND (t.state = 'waiting' OR t.state = 'running' AND t.until < $3)
                      ORDER BY j.made, t.job, t.number LIMIT 1)
                  RETURNING job, number, program, revision",
+                values![worker, time + seconds, time],
             )?;
-            let time = now();
-            let claimed = claim
-                .query_row(params![worker, time + seconds, time], |row| {
-                    Ok(Task {
-                        job: row.get(0)?,
-                        number: row.get(1)?,
-                        program: row.get(2)?,
-                        revision: row.get(3)?,
-                        asked: String::new(),
-                        author: String::new(),
-                    })
-                })
-                .optional()?;
-            let Some(task) = claimed else { return Ok(None) };
-            let mut job = to.prepare_cached("SELECT asked, author FROM job WHERE id = ?1")?;
-            let (asked, author) = job.query_row([&task.job], |row| Ok((row.get(0)?, row.get(1)?)))?;
-            Ok(Some(Task { asked, author, ..task }))
+            let Some(mut row) = claimed else { return Ok(None) };
+            let job = row.text(0)?;
+            let mut of = to.row("SELECT asked, author FROM job WHERE id = $1", values![&job])?;
+            Ok(Some(Task {
+                job,
+                number: row.int(1)?,
+                program: row.text(2)?,
+                revision: row.int(3)?,
+                asked: of.text(0)?,
+                author: of.text(1)?,
+            }))
         })
     }
 
@@ -163,10 +158,10 @@ impl Store {
         result: &str,
     ) -> Result<bool, StoreError> {
         self.database.write(|to| {
-            let mut ended = to.prepare_cached(
-                "UPDATE task SET state = ?4, result = ?5 WHERE job = ?1 AND number = ?2 AND worker = ?3 AND state = 'running'",
+            let ended = to.change(
+                "UPDATE task SET state = $4, result = $5 WHERE job = $1 AND number = $2 AND worker = $3 AND state = 'running'",
+                values![&task.job, task.number, worker, end.name(), result],
             )?;
-            let ended = ended.execute(params![task.job, task.number, worker, end.name(), result])?;
             end_job(to, &task.job)?;
             Ok(ended == 1)
         })
@@ -175,9 +170,9 @@ impl Store {
     /// Gives a task back that a worker has not ended.
     pub(crate) fn give_back(&self, worker: &str, task: &Task) -> Result<(), StoreError> {
         self.database.write(|to| {
-            to.execute(
-                "UPDATE task SET state = 'waiting' WHERE job = ?1 AND number = ?2 AND worker = ?3 AND state = 'running'",
-                params![task.job, task.number, worker],
+            to.change(
+                "UPDATE task SET state = 'waiting' WHERE job = $1 AND number = $2 AND worker = $3 AND state = 'running'",
+                values![&task.job, task.number, worker],
             )?;
             Ok(())
         })
@@ -186,12 +181,11 @@ impl Store {
     /// Cancels a job: no further task of it begins.
     pub(crate) fn cancel(&self, id: &str) -> Result<(), StoreError> {
         self.database.write(|to| {
-            to.prepare_cached("UPDATE job SET is_cancelled = TRUE WHERE id = ?1 AND ended IS NULL")?
-                .execute([id])?;
-            to.execute(
-                "UPDATE task SET state = 'cancelled' WHERE job = ?1 AND state = 'waiting'
+            to.change("UPDATE job SET is_cancelled = TRUE WHERE id = $1 AND ended IS NULL", values![id])?;
+            to.change(
+                "UPDATE task SET state = 'cancelled' WHERE job = $1 AND state = 'waiting'
                  AND job IN (SELECT id FROM job WHERE is_cancelled)",
-                [id],
+                values![id],
             )?;
             end_job(to, id)
         })
@@ -200,10 +194,8 @@ impl Store {
     /// A job.
     pub(crate) fn job(&self, id: &str) -> Result<Job, StoreError> {
         self.database.read(|from| {
-            let mut one = from.prepare_cached(
-                "SELECT id, asked, author, made, ended, is_cancelled FROM job WHERE id = ?1",
-            )?;
-            let mut job = one.query_row([id], read)?;
+            let sql = "SELECT id, asked, author, made, ended, is_cancelled FROM job WHERE id = $1";
+            let mut job = read(from.row(sql, values![id])?)?;
             count(from, &mut job)?;
             Ok(job)
         })
@@ -212,13 +204,13 @@ impl Store {
     /// Jobs, the newest first, so many at most; those before one.
     pub(crate) fn jobs(&self, before: Option<&str>, most: u32) -> Result<Vec<Job>, StoreError> {
         self.database.read(|from| {
-            let mut all = from.prepare_cached(
+            let mut jobs = from.read(
                 "SELECT id, asked, author, made, ended, is_cancelled FROM job
-                 WHERE ?1 IS NULL OR (made, id) < (SELECT made, id FROM job WHERE id = ?1)
-                 ORDER BY made DESC, id DESC LIMIT ?2",
+                 WHERE CAST($1 AS TEXT) IS NULL OR (made, id) < (SELECT made, id FROM job WHERE id = $1)
+                 ORDER BY made DESC, id DESC LIMIT $2",
+                values![before, most],
+                read,
             )?;
-            let rows = all.query_map(params![before, most], read)?;
-            let mut jobs: Vec<Job> = rows.collect::<Result<_, _>>()?;
             jobs.iter_mut().try_for_each(|job| count(from, job))?;
             Ok(jobs)
         })
@@ -227,52 +219,56 @@ impl Store {
     /// What became of the tasks of a job: those after a number, so many at most.
     pub(crate) fn results(&self, id: &str, after: i64, most: u32) -> Result<Vec<TaskResult>, StoreError> {
         self.database.read(|from| {
-            let mut all = from.prepare_cached(
+            let result = |mut row: Row| {
+                Ok(TaskResult {
+                    number: row.int(0)?,
+                    program: row.text(1)?,
+                    place: [row.text(2)?, row.text(3)?],
+                    revision: row.int(4)?,
+                    state: row.text(5)?,
+                    result: row.text(6)?,
+                })
+            };
+            from.read(
                 "SELECT t.number, t.program, r.folder, r.name, t.revision, t.state, t.result FROM task t
                  JOIN revision r ON r.program = t.program AND r.number = t.revision
-                 WHERE t.job = ?1 AND t.number > ?2 ORDER BY t.number LIMIT ?3",
-            )?;
-            let rows = all.query_map(params![id, after, most], |row| {
-                Ok(TaskResult {
-                    number: row.get(0)?,
-                    program: row.get(1)?,
-                    place: [row.get(2)?, row.get(3)?],
-                    revision: row.get(4)?,
-                    state: row.get(5)?,
-                    result: row.get(6)?,
-                })
-            })?;
-            Ok(rows.collect::<Result<_, _>>()?)
+                 WHERE t.job = $1 AND t.number > $2 ORDER BY t.number LIMIT $3",
+                values![id, after, most],
+                result,
+            )
         })
     }
 }
 
-fn read(row: &Row) -> rusqlite::Result<Job> {
+fn read(mut row: Row) -> Result<Job, StoreError> {
     Ok(Job {
-        id: row.get(0)?,
-        asked: row.get(1)?,
-        author: row.get(2)?,
-        made: row.get(3)?,
-        ended: row.get(4)?,
-        is_cancelled: row.get(5)?,
+        id: row.text(0)?,
+        asked: row.text(1)?,
+        author: row.text(2)?,
+        made: row.int(3)?,
+        ended: row.maybe_int(4)?,
+        is_cancelled: row.is(5)?,
         counts: BTreeMap::new(),
     })
 }
 
-fn count(from: &Connection, job: &mut Job) -> Result<(), StoreError> {
-    let mut counts = from.prepare_cached("SELECT state, count(*) FROM task WHERE job = ?1 GROUP BY state")?;
-    job.counts =
-        counts.query_map([&job.id], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?;
+fn count(from: &dyn Session, job: &mut Job) -> Result<(), StoreError> {
+    let counts = from.read(
+        "SELECT state, count(*) FROM task WHERE job = $1 GROUP BY state",
+        values![&job.id],
+        |mut row| Ok((row.text(0)?, row.int(1)?)),
+    )?;
+    job.counts = counts.into_iter().collect();
     Ok(())
 }
 
 /// Marks a job as ended where no task of it is left.
-fn end_job(to: &Connection, id: &str) -> Result<(), StoreError> {
-    to.prepare_cached(
-        "UPDATE job SET ended = ?2 WHERE id = ?1 AND ended IS NULL
-         AND NOT EXISTS (SELECT 1 FROM task WHERE job = ?1 AND state IN ('waiting', 'running'))",
-    )?
-    .execute(params![id, now()])?;
+fn end_job(to: &dyn Session, id: &str) -> Result<(), StoreError> {
+    to.change(
+        "UPDATE job SET ended = $2 WHERE id = $1 AND ended IS NULL
+         AND NOT EXISTS (SELECT 1 FROM task WHERE job = $1 AND state IN ('waiting', 'running'))",
+        values![id, now()],
+    )?;
     Ok(())
 }
 
@@ -284,7 +280,7 @@ mod tests {
 
     fn store(programs: usize) -> (tempfile::TempDir, Store) {
         let folder = tempfile::tempdir().expect("a folder");
-        let store = Store::open(&folder.path().join("a.sqlite")).expect("a store");
+        let store = Store::open(&super::super::Place::File(folder.path().join("a.sqlite"))).expect("a store");
         let all: Vec<(String, i64)> = (0..programs).map(|n| (format!("p{n}"), 1)).collect();
         for (id, _) in &all {
             let details = Details { name: id.clone(), ..Details::default() };

@@ -1,8 +1,7 @@
 //! Profiles of machines, by their names.
 
-use rusqlite::{OptionalExtension, Row, params};
-
 use super::documents::{Condition, now};
+use super::session::{Row, values};
 use super::{Store, StoreError, digest};
 
 /// A profile.
@@ -16,26 +15,22 @@ pub(crate) struct Machine {
     pub(crate) tag: String,
 }
 
-fn machine(row: &Row) -> rusqlite::Result<Machine> {
-    Ok(Machine { name: row.get(0)?, text: row.get(1)?, tag: row.get(2)? })
+fn machine(mut row: Row) -> Result<Machine, StoreError> {
+    Ok(Machine { name: row.text(0)?, text: row.text(1)?, tag: row.text(2)? })
 }
 
 impl Store {
     /// The profile under a name.
     pub(crate) fn machine(&self, name: &str) -> Result<Machine, StoreError> {
         self.database.read(|from| {
-            let mut row = from.prepare_cached("SELECT name, text, tag FROM machine WHERE name = ?1")?;
-            Ok(row.query_row([name], machine)?)
+            machine(from.row("SELECT name, text, tag FROM machine WHERE name = $1", values![name])?)
         })
     }
 
     /// All profiles, in the order of their names.
     pub(crate) fn machines(&self) -> Result<Vec<Machine>, StoreError> {
-        self.database.read(|from| {
-            let mut all = from.prepare_cached("SELECT name, text, tag FROM machine ORDER BY name")?;
-            let rows = all.query_map([], machine)?;
-            Ok(rows.collect::<Result<_, _>>()?)
-        })
+        self.database
+            .read(|from| from.read("SELECT name, text, tag FROM machine ORDER BY name", values![], machine))
     }
 
     /// Keeps a profile; gives its tag, and whether there was none before.
@@ -46,21 +41,19 @@ impl Store {
         over: &Condition,
     ) -> Result<(String, bool), StoreError> {
         self.database.write(|to| {
-            let there: Option<String> = to
-                .prepare_cached("SELECT tag FROM machine WHERE name = ?1")?
-                .query_row([name], |row| row.get(0))
-                .optional()?;
+            let there = to.maybe_row("SELECT tag FROM machine WHERE name = $1", values![name])?;
+            let there = there.map(|mut row| row.text(0)).transpose()?;
             match (&there, over) {
                 (None, Condition::OneOf(_)) => return Err(StoreError::Changed),
                 (None, Condition::Any) => {}
                 (Some(tag), over) => over.holds(tag)?,
             }
             let tag = digest(&[text.as_bytes()]);
-            to.prepare_cached(
-                "INSERT INTO machine (name, text, tag, changed) VALUES (?1, ?2, ?3, ?4)
+            to.change(
+                "INSERT INTO machine (name, text, tag, changed) VALUES ($1, $2, $3, $4)
                  ON CONFLICT (name) DO UPDATE SET text = excluded.text, tag = excluded.tag, changed = excluded.changed",
-            )?
-            .execute(params![name, text, tag, now()])?;
+                values![name, text, &tag, now()],
+            )?;
             Ok((tag, there.is_none()))
         })
     }
@@ -68,11 +61,8 @@ impl Store {
     /// Lets go of a profile.
     pub(crate) fn delete_machine(&self, name: &str, over: &Condition) -> Result<(), StoreError> {
         self.database.write(|to| {
-            let tag: String = to
-                .prepare_cached("SELECT tag FROM machine WHERE name = ?1")?
-                .query_row([name], |row| row.get(0))?;
-            over.holds(&tag)?;
-            to.prepare_cached("DELETE FROM machine WHERE name = ?1")?.execute([name])?;
+            over.holds(&to.row("SELECT tag FROM machine WHERE name = $1", values![name])?.text(0)?)?;
+            to.change("DELETE FROM machine WHERE name = $1", values![name])?;
             Ok(())
         })
     }

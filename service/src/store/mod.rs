@@ -1,6 +1,6 @@
 //! What the service keeps, in a database.
 //!
-//! `database` is the one way to it; `documents`, `machines`, `programs` and their `contents` are what is kept. Every change is one transaction: it is
+//! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`; `documents`, `machines`, `programs` and their `contents` are what is kept. Every change is one transaction: it is
 //! there as a whole, or not at all. Not here: what a document says, and HTTP.
 
 mod contents;
@@ -9,12 +9,15 @@ mod documents;
 mod jobs;
 mod machines;
 mod migrations;
+mod postgres;
 mod programs;
+mod session;
+mod sqlite;
 mod states;
 mod translations;
 
 use std::fmt;
-use std::path::Path;
+use std::path::PathBuf;
 
 use sha2::{Digest, Sha256};
 
@@ -63,18 +66,27 @@ impl fmt::Display for StoreError {
 
 impl std::error::Error for StoreError {}
 
+/// Where the database is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// An SQLite file.
+    File(PathBuf),
+    /// A PostgreSQL server: `postgres://user:password@host/database`.
+    Server(String),
+}
+
 /// The store. It is shared by all requests.
 pub(crate) struct Store {
     database: Database,
 }
 
 impl Store {
-    /// Opens a file, or makes it.
+    /// Opens a database; a file is made where it is not there.
     ///
     /// # Errors
-    /// It is no database of ncc, one of a later ncc, or cannot be written.
-    pub(crate) fn open(file: &Path) -> Result<Store, StoreError> {
-        let store = Store { database: Database::open(file)? };
+    /// It is no database of ncc, one of a later ncc, or cannot be reached or written.
+    pub(crate) fn open(place: &Place) -> Result<Store, StoreError> {
+        let store = Store { database: Database::open(place)? };
         store.tidy()?;
         Ok(store)
     }

@@ -3,11 +3,11 @@
 //! Every change of a program is a revision: of its text, its name, its folder, its tags, and that it was deleted. A
 //! revision is never changed.
 
-use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
+use super::session::{Row, Session, values};
 use super::{Condition, Store, StoreError};
 
 /// What a revision has changed.
@@ -133,25 +133,25 @@ impl Store {
             let content = settle(to, text)?;
             let request = once.map(|once| format!("{} {}", once.request, content.sha256));
             if let (Some(once), Some(request)) = (once, &request) {
-                let done: Option<(String, String, i64)> = to
-                    .query_row(
-                        "SELECT request, program, number FROM idempotency WHERE key = ?1",
-                        [&once.key],
-                        |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)),
-                    )
-                    .optional()?;
-                if let Some((before, program, number)) = done {
-                    return if before == *request { revision(to, &program, number) } else { Err(StoreError::Reused) };
+                let done = to.maybe_row(
+                    "SELECT request, program, number FROM idempotency WHERE key = $1",
+                    values![&once.key],
+                )?;
+                if let Some(mut done) = done {
+                    return match done.text(0)? == *request {
+                        true => revision(to, &done.text(1)?, done.int(2)?),
+                        false => Err(StoreError::Reused),
+                    };
                 }
-                to.execute(
-                    "INSERT INTO idempotency (key, request, program, number, made) VALUES (?1, ?2, ?3, 1, ?4)",
-                    params![once.key, request, id, now()],
+                to.change(
+                    "INSERT INTO idempotency (key, request, program, number, made) VALUES ($1, $2, $3, 1, $4)",
+                    values![&once.key, request, id, now()],
                 )?;
             }
             is_free(to, details, id)?;
-            to.execute(
-                "INSERT INTO program (id, folder, name, head, is_deleted) VALUES (?1, ?2, ?3, 0, FALSE)",
-                params![id, details.folder, details.name],
+            to.change(
+                "INSERT INTO program (id, folder, name, head, is_deleted) VALUES ($1, $2, $3, 0, FALSE)",
+                values![id, &details.folder, &details.name],
             )?;
             add(to, id, 1, details, &content, Change::Created, said)
         })
@@ -249,45 +249,45 @@ impl Store {
         self.database.read(|from| {
             head(from, id, &Condition::Any)?;
             let sql =
-                format!("{REVISION} WHERE r.program = ?1 AND r.number < ?2 ORDER BY r.number DESC LIMIT ?3");
-            let mut all = from.prepare_cached(&sql)?;
-            let rows = all.query_map(params![id, before, most], read)?;
-            Ok(rows.collect::<Result<_, _>>()?)
+                format!("{REVISION} WHERE r.program = $1 AND r.number < $2 ORDER BY r.number DESC LIMIT $3");
+            from.read(&sql, values![id, before, most], read)
         })
     }
 
     /// Programs in the order of their folders and names.
     pub(crate) fn programs(&self, wanted: &Wanted) -> Result<Vec<Revision>, StoreError> {
+        // A pattern of LIKE has signs of its own.
+        let signs = |text: &str| text.replace('!', "!!").replace('%', "!%").replace('_', "!_");
+        let below = wanted.under.as_ref().map(|folder| format!("{}/%", signs(folder)));
+        let part = wanted.name.as_ref().map(|name| format!("%{}%", signs(&name.to_ascii_lowercase())));
         self.database.read(|from| {
             let sql = format!(
                 "{REVISION} JOIN program p ON p.id = r.program AND p.head = r.number
-                 WHERE p.is_deleted = ?1
-                   AND (?2 IS NULL OR p.folder = ?2)
-                   AND (?3 IS NULL OR p.folder = ?3 OR substr(p.folder, 1, length(?3) + 1) = ?3 || '/')
-                   AND (?4 IS NULL OR instr(lower(p.name), lower(?4)) > 0)
-                   AND (?5 IS NULL OR r.dialect = ?5)
-                   AND (?6 IS NULL OR r.machine = ?6)
-                   AND (?7 IS NULL OR EXISTS (SELECT 1 FROM program_tag t WHERE t.tag = ?7 AND t.program = p.id))
-                   AND (?8 IS NULL OR (p.folder, p.name, p.id) >
-                        (SELECT folder, name, id FROM program WHERE id = ?8))
-                 ORDER BY p.folder, p.name, p.id LIMIT ?9"
+                 WHERE p.is_deleted = $1
+                   AND (CAST($2 AS TEXT) IS NULL OR p.folder = $2)
+                   AND (CAST($3 AS TEXT) IS NULL OR p.folder = $3 OR p.folder LIKE CAST($4 AS TEXT) ESCAPE '!')
+                   AND (CAST($5 AS TEXT) IS NULL OR lower(p.name) LIKE $5 ESCAPE '!')
+                   AND (CAST($6 AS TEXT) IS NULL OR r.dialect = $6)
+                   AND (CAST($7 AS TEXT) IS NULL OR r.machine = $7)
+                   AND (CAST($8 AS TEXT) IS NULL
+                        OR EXISTS (SELECT 1 FROM program_tag t WHERE t.tag = $8 AND t.program = p.id))
+                   AND (CAST($9 AS TEXT) IS NULL
+                        OR (p.folder, p.name, p.id) > (SELECT folder, name, id FROM program WHERE id = $9))
+                 ORDER BY p.folder, p.name, p.id LIMIT $10"
             );
-            let mut all = from.prepare_cached(&sql)?;
-            let rows = all.query_map(
-                params![
-                    wanted.deleted,
-                    wanted.folder,
-                    wanted.under,
-                    wanted.name,
-                    wanted.dialect,
-                    wanted.machine,
-                    wanted.tag,
-                    wanted.after,
-                    wanted.most
-                ],
-                read,
-            )?;
-            Ok(rows.collect::<Result<_, _>>()?)
+            let values = values![
+                wanted.deleted,
+                &wanted.folder,
+                &wanted.under,
+                below,
+                part,
+                &wanted.dialect,
+                &wanted.machine,
+                &wanted.tag,
+                &wanted.after,
+                wanted.most
+            ];
+            from.read(&sql, values, read)
         })
     }
 }
@@ -296,52 +296,49 @@ impl Store {
 const REVISION: &str = "SELECT r.program, r.number, r.folder, r.name, r.dialect, r.machine, r.tags, r.change, r.author, \
                         r.message, r.made, c.id, c.sha256, c.bytes FROM revision r JOIN content c ON c.id = r.content";
 
-fn read(row: &Row) -> rusqlite::Result<Revision> {
-    let (tags, change, bytes): (String, String, i64) = (row.get(6)?, row.get(7)?, row.get(13)?);
+fn read(mut row: Row) -> Result<Revision, StoreError> {
+    let change = row.text(7)?;
+    let unknown = || StoreError::Database(format!("no change is called {change:?}"));
     Ok(Revision {
-        program: row.get(0)?,
-        number: row.get(1)?,
+        program: row.text(0)?,
+        number: row.int(1)?,
         details: Details {
-            folder: row.get(2)?,
-            name: row.get(3)?,
-            dialect: row.get(4)?,
-            machine: row.get(5)?,
-            tags: tags.lines().map(str::to_owned).collect(),
+            folder: row.text(2)?,
+            name: row.text(3)?,
+            dialect: row.text(4)?,
+            machine: row.text(5)?,
+            tags: row.text(6)?.lines().map(str::to_owned).collect(),
         },
-        change: Change::named(&change).ok_or(rusqlite::Error::InvalidQuery)?,
-        said: Said { author: row.get(8)?, message: row.get(9)? },
-        made: row.get(10)?,
-        content: Content { id: row.get(11)?, sha256: row.get(12)?, bytes: bytes.unsigned_abs() },
+        change: Change::named(&change).ok_or_else(unknown)?,
+        said: Said { author: row.text(8)?, message: row.text(9)? },
+        made: row.int(10)?,
+        content: Content { id: row.int(11)?, sha256: row.text(12)?, bytes: row.int(13)?.unsigned_abs() },
     })
 }
 
-fn revision(from: &Connection, program: &str, number: i64) -> Result<Revision, StoreError> {
-    let mut one = from.prepare_cached(&format!("{REVISION} WHERE r.program = ?1 AND r.number = ?2"))?;
-    Ok(one.query_row(params![program, number], read)?)
+fn revision(from: &dyn Session, program: &str, number: i64) -> Result<Revision, StoreError> {
+    read(from.row(&format!("{REVISION} WHERE r.program = $1 AND r.number = $2"), values![program, number])?)
 }
 
 /// The program as it is, if a writer's condition holds.
-fn head(from: &Connection, program: &str, over: &Condition) -> Result<Revision, StoreError> {
-    let mut number = from.prepare_cached("SELECT head FROM program WHERE id = ?1")?;
-    let number: i64 = number.query_row([program], |row| row.get(0))?;
+fn head(from: &dyn Session, program: &str, over: &Condition) -> Result<Revision, StoreError> {
+    let number = from.row("SELECT head FROM program WHERE id = $1", values![program])?.int(0)?;
     over.holds(&number.to_string())?;
     revision(from, program, number)
 }
 
 /// No other program is there under this name.
-fn is_free(from: &Connection, details: &Details, program: &str) -> Result<(), StoreError> {
-    let mut other = from.prepare_cached(
-        "SELECT 1 FROM program WHERE folder = ?1 AND name = ?2 AND id <> ?3 AND NOT is_deleted",
+fn is_free(from: &dyn Session, details: &Details, program: &str) -> Result<(), StoreError> {
+    let other = from.maybe_row(
+        "SELECT id FROM program WHERE folder = $1 AND name = $2 AND id <> $3 AND NOT is_deleted",
+        values![&details.folder, &details.name, program],
     )?;
-    match other.exists(params![details.folder, details.name, program])? {
-        true => Err(StoreError::Exists),
-        false => Ok(()),
-    }
+    if other.is_some() { Err(StoreError::Exists) } else { Ok(()) }
 }
 
 /// Adds a revision, which the program is then.
 fn add(
-    to: &Connection,
+    to: &dyn Session,
     program: &str,
     number: i64,
     details: &Details,
@@ -350,30 +347,31 @@ fn add(
     said: &Said,
 ) -> Result<Revision, StoreError> {
     let made = now();
-    to.prepare_cached(
+    to.change(
         "INSERT INTO revision (program, number, content, folder, name, dialect, machine, tags, change, author, message, made)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
-    )?
-    .execute(params![
-        program,
-        number,
-        content.id,
-        details.folder,
-        details.name,
-        details.dialect,
-        details.machine,
-        details.tags.join("\n"),
-        change.name(),
-        said.author,
-        said.message,
-        made
-    ])?;
-    to.prepare_cached("UPDATE program SET folder = ?2, name = ?3, head = ?4, is_deleted = ?5 WHERE id = ?1")?
-        .execute(params![program, details.folder, details.name, number, change == Change::Deleted])?;
-    to.prepare_cached("DELETE FROM program_tag WHERE program = ?1")?.execute([program])?;
-    let mut tag = to.prepare_cached("INSERT INTO program_tag (program, tag) VALUES (?1, ?2)")?;
-    for own in &details.tags {
-        tag.execute(params![program, own])?;
+         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12)",
+        values![
+            program,
+            number,
+            content.id,
+            &details.folder,
+            &details.name,
+            &details.dialect,
+            &details.machine,
+            details.tags.join("\n"),
+            change.name(),
+            &said.author,
+            &said.message,
+            made
+        ],
+    )?;
+    to.change(
+        "UPDATE program SET folder = $2, name = $3, head = $4, is_deleted = $5 WHERE id = $1",
+        values![program, &details.folder, &details.name, number, change == Change::Deleted],
+    )?;
+    to.change("DELETE FROM program_tag WHERE program = $1", values![program])?;
+    for tag in &details.tags {
+        to.change("INSERT INTO program_tag (program, tag) VALUES ($1, $2)", values![program, tag])?;
     }
     Ok(Revision {
         program: program.to_owned(),

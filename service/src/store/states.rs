@@ -3,11 +3,11 @@
 //! A step is never changed. Of the translations of one program for one target, one is released at most; the one before it
 //! is obsolete from then on.
 
-use rusqlite::{Connection, Row, params};
 use serde::{Deserialize, Serialize};
 
 use super::documents::now;
 use super::programs::Said;
+use super::session::{Row, Session, values};
 use super::{Store, StoreError};
 
 /// A state.
@@ -82,21 +82,19 @@ impl Store {
         holds: impl FnOnce() -> bool,
     ) -> Result<(), StoreError> {
         self.database.write(|store| {
-            let (state, program, target): (String, String, String) = store.query_row(
-                "SELECT state, program, target FROM translation WHERE id = ?1",
-                [id],
-                |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)),
-            )?;
+            let mut row =
+                store.row("SELECT state, program, target FROM translation WHERE id = $1", values![id])?;
+            let (state, program, target) = (row.text(0)?, row.text(1)?, row.text(2)?);
             let may = State::named(&state).is_some_and(|state| state.next().contains(&to));
             if !may || !holds() {
                 return Err(StoreError::Changed);
             }
             if to == State::Released {
-                let mut before = store.prepare(
-                    "SELECT id FROM translation WHERE program = ?1 AND target = ?2 AND state = 'released'",
+                let before = store.read(
+                    "SELECT id FROM translation WHERE program = $1 AND target = $2 AND state = 'released'",
+                    values![program, target],
+                    |mut row| row.text(0),
                 )?;
-                let before: Vec<String> =
-                    before.query_map([program, target], |row| row.get(0))?.collect::<Result<_, _>>()?;
                 for before in before {
                     let why = Said { message: format!("{id} is released"), ..said.clone() };
                     add(store, &before, State::Obsolete, &why)?;
@@ -109,29 +107,32 @@ impl Store {
     /// What a translation has gone through, in order.
     pub(crate) fn steps(&self, id: &str) -> Result<Vec<Step>, StoreError> {
         self.database.read(|from| {
-            let mut all = from.prepare_cached(
-                "SELECT number, state, author, message, made FROM state WHERE translation = ?1 ORDER BY number",
-            )?;
-            let step = |row: &Row| {
-                let state: String = row.get(1)?;
+            let step = |mut row: Row| {
+                let state = row.text(1)?;
+                let unknown = || StoreError::Database(format!("no state is called {state:?}"));
                 Ok(Step {
-                    number: row.get(0)?,
-                    state: State::named(&state).ok_or(rusqlite::Error::InvalidQuery)?,
-                    said: Said { author: row.get(2)?, message: row.get(3)? },
-                    made: row.get(4)?,
+                    number: row.int(0)?,
+                    state: State::named(&state).ok_or_else(unknown)?,
+                    said: Said { author: row.text(2)?, message: row.text(3)? },
+                    made: row.int(4)?,
                 })
             };
-            Ok(all.query_map([id], step)?.collect::<Result<_, _>>()?)
+            from.read(
+                "SELECT number, state, author, message, made FROM state WHERE translation = $1 ORDER BY number",
+                values![id],
+                step,
+            )
         })
     }
 }
 
-fn add(to: &Connection, id: &str, state: State, said: &Said) -> Result<(), StoreError> {
-    to.execute("UPDATE translation SET state = ?2 WHERE id = ?1", params![id, state.name()])?;
-    to.execute(
-        "INSERT INTO state (translation, number, state, author, message, made)
-         SELECT ?1, coalesce(max(number), 0) + 1, ?2, ?3, ?4, ?5 FROM state WHERE translation = ?1",
-        params![id, state.name(), said.author, said.message, now()],
+fn add(to: &dyn Session, id: &str, state: State, said: &Said) -> Result<(), StoreError> {
+    to.change("UPDATE translation SET state = $2 WHERE id = $1", values![id, state.name()])?;
+    let mut last =
+        to.row("SELECT coalesce(max(number), 0) FROM state WHERE translation = $1", values![id])?;
+    to.change(
+        "INSERT INTO state (translation, number, state, author, message, made) VALUES ($1, $2, $3, $4, $5, $6)",
+        values![id, last.int(0)? + 1, state.name(), &said.author, &said.message, now()],
     )?;
     Ok(())
 }

@@ -1,9 +1,8 @@
 //! Translations of programs. What went in and what came out of one is never changed.
 
-use rusqlite::{Connection, OptionalExtension, Row, params};
-
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
+use super::session::{Row, Session, values};
 use super::states::State;
 use super::{Store, StoreError};
 
@@ -59,22 +58,24 @@ impl Outcome {
 const TRANSLATION: &str = "SELECT id, key, program, revision, asked, inputs, target, state, author, made \
                            FROM translation";
 
-fn read(row: &Row) -> rusqlite::Result<Translation> {
+fn read(mut row: Row) -> Result<Translation, StoreError> {
+    let state = row.text(7)?;
+    let unknown = || StoreError::Database(format!("no state is called {state:?}"));
     Ok(Translation {
-        id: row.get(0)?,
-        key: row.get(1)?,
-        program: row.get(2)?,
-        revision: row.get(3)?,
-        asked: row.get(4)?,
-        inputs: row.get(5)?,
-        target: row.get(6)?,
-        state: State::named(&row.get::<_, String>(7)?).ok_or(rusqlite::Error::InvalidQuery)?,
-        author: row.get(8)?,
-        made: row.get(9)?,
+        id: row.text(0)?,
+        key: row.text(1)?,
+        program: row.text(2)?,
+        revision: row.int(3)?,
+        asked: row.text(4)?,
+        inputs: row.text(5)?,
+        target: row.text(6)?,
+        state: State::named(&state).ok_or_else(unknown)?,
+        author: row.text(8)?,
+        made: row.int(9)?,
     })
 }
 
-fn keep(to: &Connection, bytes: &[u8]) -> Result<i64, StoreError> {
+fn keep(to: &dyn Session, bytes: &[u8]) -> Result<i64, StoreError> {
     let mut text = Receiving::default();
     text.take(bytes);
     Ok(settle(to, text)?.id)
@@ -88,29 +89,29 @@ impl Store {
         [output, report, map]: [&[u8]; 3],
     ) -> Result<Translation, StoreError> {
         self.database.write(|to| {
-            let same = format!("{TRANSLATION} WHERE key = ?1 AND inputs = ?2");
-            let there = to.query_row(&same, params![made.key, made.inputs], read).optional()?;
-            if let Some(there) = there {
-                return Ok(there);
+            let same = format!("{TRANSLATION} WHERE key = $1 AND inputs = $2");
+            if let Some(there) = to.maybe_row(&same, values![&made.key, &made.inputs])? {
+                return read(there);
             }
             let made = Translation { made: now(), ..made.clone() };
             let [output, report, map] = [output, report, map].map(|bytes| keep(to, bytes));
-            to.execute(
-                "INSERT INTO translation (id, key, program, revision, asked, inputs, output, report, map, author, made, target, state)
-                 VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
-                params![
-                    made.id,
-                    made.key,
-                    made.program,
+            to.change(
+                "INSERT INTO translation
+                 (id, key, program, revision, asked, inputs, output, report, map, author, made, target, state)
+                 VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13)",
+                values![
+                    &made.id,
+                    &made.key,
+                    &made.program,
                     made.revision,
-                    made.asked,
-                    made.inputs,
+                    &made.asked,
+                    &made.inputs,
                     output?,
                     report?,
                     map?,
-                    made.author,
+                    &made.author,
                     made.made,
-                    made.target,
+                    &made.target,
                     made.state.name()
                 ],
             )?;
@@ -121,18 +122,13 @@ impl Store {
     /// Translations of which the same went in, but for the programs that they call.
     pub(crate) fn same_translations(&self, key: &str) -> Result<Vec<Translation>, StoreError> {
         self.database.read(|from| {
-            let mut all = from.prepare_cached(&format!("{TRANSLATION} WHERE key = ?1 ORDER BY made DESC"))?;
-            let rows = all.query_map([key], read)?;
-            Ok(rows.collect::<Result<_, _>>()?)
+            from.read(&format!("{TRANSLATION} WHERE key = $1 ORDER BY made DESC, id"), values![key], read)
         })
     }
 
     /// A translation.
     pub(crate) fn translation(&self, id: &str) -> Result<Translation, StoreError> {
-        self.database.read(|from| {
-            let mut one = from.prepare_cached(&format!("{TRANSLATION} WHERE id = ?1"))?;
-            Ok(one.query_row([id], read)?)
-        })
+        self.database.read(|from| read(from.row(&format!("{TRANSLATION} WHERE id = $1"), values![id])?))
     }
 
     /// Translations of a program, or all, those in a state, or all, in the order of their names; those after a name, so many
@@ -145,12 +141,11 @@ impl Store {
         most: u32,
     ) -> Result<Vec<Translation>, StoreError> {
         self.database.read(|from| {
-            let mut all = from.prepare_cached(&format!(
-                "{TRANSLATION} WHERE (?1 IS NULL OR program = ?1) AND (?2 IS NULL OR state = ?2) AND id > ?3
-                 ORDER BY id LIMIT ?4"
-            ))?;
-            let rows = all.query_map(params![program, state.map(State::name), after, most], read)?;
-            Ok(rows.collect::<Result<_, _>>()?)
+            let sql = format!(
+                "{TRANSLATION} WHERE (CAST($1 AS TEXT) IS NULL OR program = $1)
+                 AND (CAST($2 AS TEXT) IS NULL OR state = $2) AND id > $3 ORDER BY id LIMIT $4"
+            );
+            from.read(&sql, values![program, state.map(State::name), after, most], read)
         })
     }
 
@@ -159,14 +154,12 @@ impl Store {
         self.database.read(|from| {
             let column = outcome.column();
             let sql = format!(
-                "SELECT c.id, c.sha256, c.bytes FROM translation t LEFT JOIN content c ON c.id = t.{column} WHERE t.id = ?1"
+                "SELECT c.id, c.sha256, c.bytes FROM translation t LEFT JOIN content c ON c.id = t.{column} WHERE t.id = $1"
             );
-            let mut one = from.prepare_cached(&sql)?;
-            Ok(one.query_row([id], |row| {
-                let (content, sha256): (Option<i64>, Option<String>) = (row.get(0)?, row.get(1)?);
-                let bytes = row.get::<_, Option<i64>>(2)?.unwrap_or_default().unsigned_abs();
-                Ok(content.zip(sha256).map(|(id, sha256)| Content { id, sha256, bytes }))
-            })?)
+            let mut row = from.row(&sql, values![id])?;
+            let (content, sha256) = (row.maybe_int(0)?, row.maybe_text(1)?);
+            let bytes = row.maybe_int(2)?.unwrap_or_default().unsigned_abs();
+            Ok(content.zip(sha256).map(|(id, sha256)| Content { id, sha256, bytes }))
         })
     }
 
@@ -174,7 +167,7 @@ impl Store {
     pub(crate) fn keep_certificate(&self, id: &str, text: &[u8]) -> Result<(), StoreError> {
         self.database.write(|to| {
             let content = keep(to, text)?;
-            to.execute("UPDATE translation SET certificate = ?2 WHERE id = ?1", params![id, content])?;
+            to.change("UPDATE translation SET certificate = $2 WHERE id = $1", values![id, content])?;
             Ok(())
         })
     }
