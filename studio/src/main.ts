@@ -24,6 +24,10 @@ import { wireKeys } from "./ui/keys";
 import { Panes, fillWords, showTheme, wireLanguage, wireSplit, wireTheme, wireToggle } from "./ui/layout";
 import { chooseLanguage, say } from "./ui/texts";
 
+// The compiler is on its way while the page is built; a failure is told where it is waited for.
+const coming = openEngines();
+coming.catch(() => undefined);
+
 const language = chooseLanguage(stored("ncc-language"));
 fillWords();
 wireLanguage(language);
@@ -31,9 +35,6 @@ wireSplit();
 showTheme();
 // The frame is seen before the rest is made.
 await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-// The compiler is on its way while the page is built; a failure is told where it is waited for.
-const coming = openEngines();
-coming.catch(() => undefined);
 
 const session = new Session();
 const player = new Player();

@@ -2,13 +2,14 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
 import { NCC, studio } from "./binary.mjs";
 import { tests, value } from "./pages.mjs";
 import { ASKS, SQUARE, long } from "./programs.mjs";
+import { serve } from "./server.mjs";
 
 const { page, both, world } = tests();
 
@@ -435,6 +436,21 @@ test("a browser without SIMD in WebAssembly is told that it is too old", async (
   await own.waitForSelector('#state[data-state="failed"]', { state: "attached" });
   assert.match(await value(own, "#problems-list"), /too old for the compiler/);
   await context.close();
+});
+
+test("a server without the compiler is told", { skip: !process.env.STUDIO_SITE && "STUDIO_SITE names no page" }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "ncc-studio-"));
+  cpSync(process.env.STUDIO_SITE, folder, { recursive: true, filter: (name) => !name.endsWith("engine.wasm") });
+  const site = await serve(folder);
+  const own = await world().browser.newPage({ locale: "en-US" });
+  try {
+    await own.goto(site.url);
+    await own.locator("#problems", { hasText: /did not load[^]*engine\.wasm: 404/ }).waitFor();
+    assert.equal(await own.getAttribute("#state", "data-state"), "failed");
+  } finally {
+    await own.close();
+    await site.close();
+  }
 });
 
 test("ncc studio: a folder's programs are opened, saved back, and followed", { skip: !NCC && "NCC names no binary" }, async () => {
