@@ -385,6 +385,23 @@ page("English and Portuguese", { locale: "pt-BR" }, async (own) => {
   assert.equal(await value(own, "#tab-translate"), "Translation");
 });
 
+for (const locale of ["en-US", "pt-BR"]) {
+  page(`in 900 pixels nothing is cut off: ${locale}`, { width: 900, locale }, async (own) => {
+    const fits = async (selectors) => {
+      const found = await own.locator(selectors).evaluateAll((all) => all.map(({ id, className, scrollWidth, clientWidth }) => [id || className, scrollWidth - clientWidth]));
+      assert.ok(found.length > 0);
+      assert.deepEqual(found.filter(([, pixels]) => pixels > 0), [], selectors);
+    };
+    await fits("#top, #machine-pane .strip, #readout, #player");
+    await own.click("#tab-setup");
+    await fits("#setup-pane, #setup-pane .wide-table");
+    await own.click("#tab-translate");
+    await fits("#translate-pane .strip");
+    await own.click("#projects-open");
+    await fits("#projects-dialog");
+  });
+}
+
 page("keys reach all of it", {}, async (own) => {
   await type(own, SQUARE);
   await own.keyboard.press("Control+Home");

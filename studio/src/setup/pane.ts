@@ -107,6 +107,8 @@ export class SetupPane {
     const names: TextName[] = ["tool", "shape", "diameter", "detail", "flute", "shank", "holder", "holderFrom", "knownBy", "time", "removed"];
     const head = el("tr", {}, ...names.map((name) => el("th", { scope: "col" }, say(name))));
     const rows = (cut?.tools ?? []).map((tool, at) => this.tool(tool, at));
+    // Where a row has no room, each field has its name beside it.
+    for (const row of rows) row.querySelectorAll("td").forEach((cell, at) => (cell.dataset.name = say(names[at + 1] as TextName)));
     const table = el("table", {}, el("thead", {}, head), el("tbody", {}, ...rows));
     return el("section", {}, el("h2", {}, say("tools")), el("div", { class: "wide-table" }, table));
   }
