@@ -102,11 +102,16 @@ pub(crate) fn row(project: Option<&str>, file: &str, files: &Files) -> Result<Op
     project_file::row(&String::from_utf8_lossy(text), file)
 }
 
+/// Whether a file is at hand: a host puts an empty one in the place of one that is gone.
+pub(crate) fn is_given(name: &str, files: &Files) -> bool {
+    files.get(name).is_some_and(|text| !text.is_empty())
+}
+
 /// The name of a machine of a row whose profile is not at hand: nothing else that is asked shall fail with it.
 fn absent(row: Option<&MachineRef>, files: &Files) -> Option<String> {
     match row? {
         MachineRef::Named(name) => {
-            let is_known = ncc_machines::find(name.get_ref()).is_some() || files.contains_key(name.get_ref());
+            let is_known = ncc_machines::find(name.get_ref()).is_some() || is_given(name.get_ref(), files);
             (!is_known).then(|| name.get_ref().clone())
         }
         MachineRef::Inline(..) => None,

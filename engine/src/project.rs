@@ -2,6 +2,8 @@
 //!
 //! Not here: its form (`ncc_machines::project`), and how it is written (`ncc_driver::job::project_file`).
 
+use std::collections::BTreeSet;
+
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_driver::job::project_file::{self, SetUp};
 use ncc_driver::machines::pair::Machines;
@@ -12,7 +14,7 @@ use ncc_machines::table::Tell;
 use serde_json::{Value, json};
 use toml::Spanned;
 
-use crate::program::{Files, Outputs, named, open, profile, row, settings};
+use crate::program::{Files, Outputs, is_given, named, open, profile, row, settings};
 use crate::request::{Project, Stated};
 
 /// Writes the answers for a program, and its set-up, into a project file.
@@ -54,11 +56,12 @@ pub(crate) fn project(
     Ok((Exit::Done, vec![("output", written.into_bytes())]))
 }
 
-/// What a project file states of a program, and which files it names: profiles, bodies.
+/// What a project file states of a program, which files it names (profiles, bodies), and which of them are not at hand.
 ///
 /// ```json
 /// { "machine": { "name": null, "dialect": "fanuc", "options": { "decimal_point": "calculator" } }, "to": null,
-///   "stock": "X0:80 Y0:50 Z-20:0", "fixtures": ["vise.stl"], "table": -20.0, "files": ["vise.stl"] }
+///   "stock": "X0:80 Y0:50 Z-20:0", "fixtures": ["vise.stl"], "table": -20.0, "files": ["vise.stl"],
+///   "told": ["ncc.toml names vise.stl, and there is no such file"] }
 /// ```
 pub(crate) fn stated(asked: &Stated, files: &Files) -> Result<(Exit, Outputs), Problem> {
     let Some(row) = row(Some(&asked.project), &asked.file, files)? else {
@@ -74,7 +77,9 @@ pub(crate) fn stated(asked: &Stated, files: &Files) -> Result<(Exit, Outputs), P
         }
         MachineRef::Named(_) | MachineRef::Inline(..) => None,
     });
-    let named: Vec<String> = bodies.chain(profiles).collect();
+    let named: BTreeSet<String> = bodies.chain(profiles).collect();
+    let lacking = named.iter().filter(|name| !is_given(name, files));
+    let told: Vec<String> = lacking.map(|name| project_file::absent(name).message).collect();
     let document = json!({
         "machine": row.machine.as_ref().map(|side| about(side, files)),
         "to": row.to.as_ref().map(|side| about(side, files)),
@@ -82,6 +87,7 @@ pub(crate) fn stated(asked: &Stated, files: &Files) -> Result<(Exit, Outputs), P
         "fixtures": row.fixtures.iter().map(Spanned::get_ref).collect::<Vec<_>>(),
         "table": row.table.as_ref().map(Spanned::get_ref),
         "files": named,
+        "told": told,
     });
     Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }

@@ -25,7 +25,7 @@ use ncc_machines::project::Programs;
 use ncc_simulate::{Face, Fixture, Stock, covered, faces};
 use ncc_time::Model;
 
-use crate::program::{Files, Outputs, machine_of, plan, row, side, warn};
+use crate::program::{Files, Outputs, is_given, machine_of, plan, row, side, warn};
 use crate::request::{One, Seek, Simulate};
 
 /// The program that was cut last.
@@ -132,7 +132,7 @@ fn body(text: &str, files: &Files) -> Result<Stock, Problem> {
 /// A body of a row of a project file; none where its file is not at hand, which has been reported.
 fn stated_body(text: &str, files: &Files, messages: &mut Buffer) -> Result<Option<Stock>, Problem> {
     match raw::stated(text) {
-        Ok(raw::Stated::File(name)) if !files.contains_key(&name) => warn(&name, messages).map(|()| None),
+        Ok(raw::Stated::File(name)) if !is_given(&name, files) => warn(&name, messages).map(|()| None),
         Ok(_) | Err(_) => body(text, files).map(Some),
     }
 }

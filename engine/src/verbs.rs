@@ -21,8 +21,8 @@ use ncc_driver::render::{Loudness, human};
 use ncc_driver::review::diff::tell::Account;
 use ncc_driver::review::diff::{json, motion};
 use ncc_driver::review::stream::Course;
-use ncc_driver::review::verify::document::{Call, Document, Word};
-use ncc_driver::review::verify::hashes::{self, Named};
+use ncc_driver::review::verify::document::{Call, Document, Hashed, Word};
+use ncc_driver::review::verify::hashes;
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
 use ncc_driver::source::include_path::load_subprograms;
@@ -110,17 +110,15 @@ fn verb(
     }
 }
 
-/// The texts that a dialect is made of: its own, then its base's and so on.
-fn texts(id: &str) -> Vec<Named<'static>> {
-    let mut texts = Vec::new();
+/// Hashes of the texts that a dialect is made of: its own, then its base's and so on.
+fn hashes_of(id: &str) -> Vec<Hashed> {
+    let mut all = Vec::new();
     let mut next = ncc_dialects::builtin(id);
     while let Some(dialect) = next {
-        let own = ncc_dialects::builtin_ids().position(|own| own == dialect.id);
-        let text = own.and_then(ncc_dialects::builtin_text);
-        texts.extend(text.map(|(name, text)| (name, None, text)));
+        all.extend(hashes::built_in(&dialect.id));
         next = dialect.base.as_deref().and_then(ncc_dialects::builtin);
     }
-    texts
+    all
 }
 
 fn verdicts(names: &[String]) -> Result<Vec<Verdict>, Problem> {
@@ -276,7 +274,7 @@ fn verified(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Ou
         files: [two.a.file.clone(), two.b.file.clone()],
         machines: machines.map(|name| name.map(str::to_owned)),
         tolerance,
-        dictionaries: hashes::dictionaries(&sides, &texts),
+        dictionaries: hashes::dictionaries(&sides, &hashes_of),
         profiles: hashes::profiles(machines, &sides, &read).map_err(cannot)?,
     };
     let document = Document::of(&found, &mut sides, &call).map_err(cannot)?;

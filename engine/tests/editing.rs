@@ -208,6 +208,7 @@ fn a_project_file_is_read_back() {
             "machine": { "name": null, "dialect": "fanuc", "options": { "decimal_point": "calculator" } },
             "to": { "name": "haas-vf2", "dialect": "haas", "options": {} },
             "stock": "X0:40 Y0:40 Z-10:0", "fixtures": ["vise.stl"], "table": -30.0, "files": ["vise.stl"],
+            "told": ["ncc.toml names vise.stl, and there is no such file"],
         })
     );
     let row = |engine: &Engine| -> serde_json::Value {

@@ -24,6 +24,10 @@ import { wireKeys } from "./ui/keys";
 import { Panes, fillWords, showTheme, wireLanguage, wireSplit, wireTheme, wireToggle } from "./ui/layout";
 import { chooseLanguage, say } from "./ui/texts";
 
+// The compiler is on its way while the page is built; a failure is told where it is waited for.
+const coming = openEngines();
+coming.catch(() => undefined);
+
 const language = chooseLanguage(stored("ncc-language"));
 fillWords();
 wireLanguage(language);
@@ -31,9 +35,6 @@ wireSplit();
 showTheme();
 // The frame is seen before the rest is made.
 await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-// The compiler is on its way while the page is built; a failure is told where it is waited for.
-const coming = openEngines();
-coming.catch(() => undefined);
 
 const session = new Session();
 const player = new Player();
@@ -61,7 +62,7 @@ const editor = new Editor(byId("editor"), {
     session.change();
   },
   cursor: (line) => {
-    machine.mark(line);
+    machine?.mark(line);
     translate.markSource(line);
   },
   goTo: () => void editing.goTo(),
@@ -75,7 +76,7 @@ const editing = new Editing(session, editor, desk);
 const problems = new ProblemList(({ place: { line, column }, time }) => {
   editor.goTo(line, column);
   editor.focus();
-  machine.mark(line);
+  machine?.mark(line);
   if (time === undefined) return;
   player.playing.set(false);
   player.seek(time);
@@ -95,10 +96,18 @@ const charts = new Charts(byId("charts"), (time) => {
   player.seek(time);
 });
 const transport = new Transport(player);
-const machine = new MachinePane(player, (line) => {
-  editor.goTo(line);
-  panes.show("machine", document.body.dataset.pane === "machine" ? "machine" : "editor");
-});
+let machine: MachinePane | undefined;
+
+/** The picture, made for the first program: until a browser has a context for it the page does nothing else. */
+function picture(): void {
+  if (machine) return;
+  machine = new MachinePane(player, (line) => {
+    editor.goTo(line);
+    panes.show("machine", document.body.dataset.pane === "machine" ? "machine" : "editor");
+  });
+  machine.setBodies(new Map(Object.entries(session.project.get()?.bodies ?? {})));
+}
+
 const translate = new TranslatePane(session, desk, editor);
 new SetupPane(session, desk);
 const lists = new ChoiceLists(session, desk);
@@ -109,7 +118,7 @@ const panes = new Panes((tab, pane) => {
     if (looks) session.change();
   }
   if (pane === "time") charts.draw();
-  machine.draw();
+  machine?.draw();
 });
 const dialog = new ProjectsDialog(desk, language);
 
@@ -126,16 +135,16 @@ wireToggle("charts-toggle", (on) => {
 });
 byId("block-modes").addEventListener("click", () => editor.showBlock());
 wireDrop(desk);
-wireKeys({ desk, player, editor, projects: () => void dialog.open(), toLine: (line) => machine.runTo(line) });
+wireKeys({ desk, player, editor, projects: () => void dialog.open(), toLine: (line) => machine?.runTo(line) });
 wireTheme(() => {
-  machine.restyle();
+  machine?.restyle();
   charts.draw();
   transport.draw();
   translate.draw();
 });
 
 session.project.on((project) => {
-  machine.setBodies(new Map(Object.entries(project?.bodies ?? {})));
+  machine?.setBodies(new Map(Object.entries(project?.bodies ?? {})));
   byId("project-name").textContent = project?.name ?? "";
   document.title = project ? `${project.name} · ncc studio` : "ncc studio";
 });
@@ -157,16 +166,20 @@ session.path.on((path) => {
   transport.setPath(path);
   player.open(path, placed);
   charts.setPath(path);
-  machine.setPath(path, session.cut, session.pathTold.get());
+  if (path) picture();
+  machine?.setPath(path, session.cut, session.pathTold.get());
   transport.setAlarms(session.cut?.alarms ?? []);
 });
-session.pathTold.on((told) => machine.setTold(session.path.get(), told));
-session.part.on((part) => machine.setPart(part));
+session.pathTold.on((told) => {
+  if (told) picture();
+  machine?.setTold(session.path.get(), told);
+});
+session.part.on((part) => machine?.setPart(part));
 player.now.on((now) => {
   const path = session.path.get();
   placed = player.seconds > 0 && now.time < player.seconds;
   charts.setTime(now.time, now.piece, now.share);
-  machine.setNow(path, now);
+  machine?.setNow(path, now);
   // The end of a program is where a page begins: no line is marked then.
   const line = path && placed && now.piece >= 0 ? (path.line[now.piece] ?? 0) : 0;
   editor.markNow(line, follow);
@@ -180,6 +193,7 @@ try {
   lists.fill();
   editor.recolour();
 } catch (error) {
+  picture();
   session.state.set("failed");
   session.checked.set({ problems: [], notChecked: [], told: `${say(error instanceof TooOld ? "tooOld" : "noEngine")}\n${String(error)}` });
 }

@@ -109,6 +109,20 @@ both("an ncc.toml with faults is told, and the program is read without it", {}, 
   assert.equal(await own.getByLabel("Raw part", { exact: true }).inputValue(), "guess");
 });
 
+both("files that ncc.toml names and that are not at hand are told in the set-up", {}, async (own) => {
+  const row = '[[programs]]\nfiles = "square.nc"\nmachine = "ours.toml"\nstock = "raw.stl"\n';
+  await take(own, "square", { "square/square.nc": SQUARE, "square/ncc.toml": row });
+  await own.click("#tab-setup");
+  const lines = own.locator("#set-up-machine p");
+  await lines.first().waitFor();
+  assert.deepEqual(await lines.allTextContents(), ["ours.toml", "raw.stl"].map((name) => `ncc.toml names ${name}, and there is no such file`));
+  // The rest is done without them.
+  assert.ok(Number(await data(own, "cut")) > 100);
+  await take(own, "square-2", { "square-2/square-2.nc": SQUARE });
+  await own.click("#tab-setup");
+  assert.equal(await own.locator("#set-up-machine").isVisible(), false);
+});
+
 both("F12 leads to a called program in another file", {}, async (own) => {
   const main = "%\nO1\nG21 G17 G90 G94 G40 G49 G80 G54\nM98 P2000\nM30\n%\n";
   await take(own, "main", { "sub.nc": "%\n(BORES)\nO2000\nG0 X1.\nM99\n%\n", "main.nc": main });

@@ -2,13 +2,14 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
 import { NCC, studio } from "./binary.mjs";
 import { tests, value } from "./pages.mjs";
 import { ASKS, SQUARE, long } from "./programs.mjs";
+import { serve } from "./server.mjs";
 
 const { page, both, world } = tests();
 
@@ -384,6 +385,23 @@ page("English and Portuguese", { locale: "pt-BR" }, async (own) => {
   assert.equal(await value(own, "#tab-translate"), "Translation");
 });
 
+for (const locale of ["en-US", "pt-BR"]) {
+  page(`in 900 pixels nothing is cut off: ${locale}`, { width: 900, locale }, async (own) => {
+    const fits = async (selectors) => {
+      const found = await own.locator(selectors).evaluateAll((all) => all.map(({ id, className, scrollWidth, clientWidth }) => [id || className, scrollWidth - clientWidth]));
+      assert.ok(found.length > 0);
+      assert.deepEqual(found.filter(([, pixels]) => pixels > 0), [], selectors);
+    };
+    await fits("#top, #machine-pane .strip, #readout, #player");
+    await own.click("#tab-setup");
+    await fits("#setup-pane, #setup-pane .wide-table");
+    await own.click("#tab-translate");
+    await fits("#translate-pane .strip");
+    await own.click("#projects-open");
+    await fits("#projects-dialog");
+  });
+}
+
 page("keys reach all of it", {}, async (own) => {
   await type(own, SQUARE);
   await own.keyboard.press("Control+Home");
@@ -435,6 +453,21 @@ test("a browser without SIMD in WebAssembly is told that it is too old", async (
   await own.waitForSelector('#state[data-state="failed"]', { state: "attached" });
   assert.match(await value(own, "#problems-list"), /too old for the compiler/);
   await context.close();
+});
+
+test("a server without the compiler is told", { skip: !process.env.STUDIO_SITE && "STUDIO_SITE names no page" }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "ncc-studio-"));
+  cpSync(process.env.STUDIO_SITE, folder, { recursive: true, filter: (name) => !name.endsWith("engine.wasm") });
+  const site = await serve(folder);
+  const own = await world().browser.newPage({ locale: "en-US" });
+  try {
+    await own.goto(site.url);
+    await own.locator("#problems", { hasText: /did not load[^]*engine\.wasm: 404/ }).waitFor();
+    assert.equal(await own.getAttribute("#state", "data-state"), "failed");
+  } finally {
+    await own.close();
+    await site.close();
+  }
 });
 
 test("ncc studio: a folder's programs are opened, saved back, and followed", { skip: !NCC && "NCC names no binary" }, async () => {

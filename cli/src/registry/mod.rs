@@ -21,7 +21,8 @@ use ncc_dialects::{
 };
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::render::dictionary::{BaseRow, Words, words};
-use ncc_driver::review::verify::hashes::Named;
+use ncc_driver::review::verify::document::Hashed;
+use ncc_driver::review::verify::hashes::{built_in, hashed};
 use ncc_ir::canon::Units;
 use ncc_ir::expr::num::Num;
 use ncc_machines::reading::Side;
@@ -256,27 +257,24 @@ impl DialectRegistry {
         })
     }
 
-    /// The texts that a dialect is made of: its own, then its base's and so on; each with the dialect's
+    /// Hashes of the texts that a dialect is made of: its own, then its base's and so on; each with the dialect's
     /// name and, of a shop's, its file.
-    pub fn texts(&self, id: &str) -> Vec<Named<'_>> {
-        let mut texts = Vec::new();
+    pub fn hashes(&self, id: &str) -> Vec<Hashed> {
+        let mut all = Vec::new();
         let mut next = self.get(id);
         while let Some(dialect) = next {
             let shop = self.shops.iter().position(|shop| shop.id == dialect.id);
-            let text = match shop.and_then(|at| self.texts.get(at)) {
+            let own = match shop.and_then(|at| self.texts.get(at)) {
                 Some((file, text)) => {
-                    Some((dialect.id.as_str(), Some(file.display().to_string()), text.as_str()))
+                    Some(hashed(&dialect.id, Some(file.display().to_string()), text.as_bytes()))
                 }
-                None => builtin_ids()
-                    .position(|other| other == dialect.id)
-                    .and_then(builtin_text)
-                    .map(|(name, text)| (name, None, text)),
+                None => built_in(&dialect.id),
             };
-            texts.extend(text);
+            all.extend(own);
             // A base of itself is refused where dictionaries are read.
             next = dialect.base.as_deref().and_then(|base| self.get(base));
         }
-        texts
+        all
     }
 
     /// Their names, for a message.

@@ -42,7 +42,7 @@ pub(crate) fn call(
         files,
         machines: machines.map(|name| name.map(str::to_owned)),
         tolerance,
-        dictionaries: hashes::dictionaries(sides, &|id| known.texts(id)),
+        dictionaries: hashes::dictionaries(sides, &|id| known.hashes(id)),
         profiles: hashes::profiles(machines, sides, &|name| std::fs::read(name))?,
     })
 }

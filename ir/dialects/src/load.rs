@@ -16,7 +16,7 @@ use crate::codes::CodeIndex;
 use crate::fault::{DialectError, DialectFault, Place, Text};
 use crate::merge;
 use crate::schema::Dialect;
-use crate::texts::BUILTIN;
+use crate::texts::{BUILTIN, IDS};
 
 // Dictionaries as the build script has prepared them, in the order of their texts.
 include!(concat!(env!("OUT_DIR"), "/dictionaries.rs"));
@@ -25,16 +25,16 @@ static DIALECTS: Shelf = Shelf::new();
 
 /// The built-in dialects, each read when it is asked for: a call of ncc needs two of them, rarely more.
 struct Shelf {
-    dialects: [OnceLock<Dialect>; BUILTIN.len()],
+    dialects: [OnceLock<Dialect>; IDS.len()],
 }
 
 impl Shelf {
     const fn new() -> Shelf {
-        Shelf { dialects: [const { OnceLock::new() }; BUILTIN.len()] }
+        Shelf { dialects: [const { OnceLock::new() }; IDS.len()] }
     }
 
     fn get(&self, id: &str) -> Option<&Dialect> {
-        let at = BUILTIN.iter().position(|(other, _)| *other == id)?;
+        let at = IDS.iter().position(|other| *other == id)?;
         let read = || prepared(at).unwrap_or_else(|e| panic!("built-in dictionary: {e}"));
         Some(self.dialects[at].get_or_init(read))
     }
@@ -43,7 +43,8 @@ impl Shelf {
 /// A built-in dictionary by its place among the texts, from what the build script has prepared of it. Its rows are not
 /// checked at each start: a test reads every text, with all checks, and compares.
 fn prepared(at: usize) -> Result<Dialect, DialectError> {
-    let read = rmp_serde::from_slice(PREPARED[at]);
+    let tables: Vec<&[u8]> = PREPARED[at].iter().map(|piece| &TABLES[piece.clone()]).collect();
+    let read = rmp_serde::from_slice(&tables.concat());
     let mut dialect: Dialect = read.map_err(|e| DialectFault::Form(e.to_string()).at(None))?;
     check::spread(&mut dialect, &mut Places::default()).map_err(|(fault, _)| fault.at(None))?;
     let wrong = |wrong| DialectFault::Form(format!("{wrong:?}")).at(None);
@@ -59,7 +60,7 @@ pub fn builtins() -> impl Iterator<Item = &'static Dialect> {
 
 /// Their names; none is read for that.
 pub fn builtin_ids() -> impl Iterator<Item = &'static str> {
-    BUILTIN.iter().map(|(id, _)| *id)
+    IDS.into_iter()
 }
 
 /// A built-in dialect by its id; it is read if nobody has asked for it before.
@@ -70,6 +71,11 @@ pub fn builtin(id: &str) -> Option<&'static Dialect> {
 /// Name and data file of a built-in dialect, by its place among [`builtins`].
 pub fn builtin_text(at: usize) -> Option<(&'static str, &'static str)> {
     BUILTIN.get(at).copied()
+}
+
+/// Name and SHA-256 of the data file of a built-in dialect, by its place among [`builtins`].
+pub fn builtin_sha256(at: usize) -> Option<(&'static str, &'static [u8; 32])> {
+    Some((*IDS.get(at)?, HASHES.get(at)?))
 }
 
 /// Reads a dictionary, which may build on a built-in one.
@@ -287,6 +293,8 @@ fn places(tree: &DeTable<'_>) -> Places {
 
 #[cfg(test)]
 mod tests {
+    use sha2::{Digest, Sha256};
+
     use super::*;
 
     #[test]
@@ -300,6 +308,8 @@ mod tests {
         for (at, (id, _)) in BUILTIN.iter().enumerate() {
             let of_text = Texts::new(&[]).dialect(Text::BuiltIn(at)).unwrap_or_else(|e| panic!("{id}: {e}"));
             assert_eq!(format!("{:#?}", prepared(at).unwrap()), format!("{of_text:#?}"), "{id}");
+            let (name, text) = builtin_text(at).unwrap();
+            assert_eq!(builtin_sha256(at), Some((name, &Sha256::digest(text).into())), "{id}");
         }
     }
 

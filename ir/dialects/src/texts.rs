@@ -12,3 +12,14 @@ pub(crate) const BUILTIN: [(&str, &str); 9] = [
     ("canon", include_str!("../data/canon.toml")),
     ("ir", include_str!("../data/ir.toml")),
 ];
+
+/// Their names alone: who asks for them alone does not bring the texts into a program.
+pub(crate) const IDS: [&str; BUILTIN.len()] = {
+    let mut ids = [""; BUILTIN.len()];
+    let mut at = 0;
+    while at < ids.len() {
+        ids[at] = BUILTIN[at].0;
+        at += 1;
+    }
+    ids
+};

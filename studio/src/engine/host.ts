@@ -5,7 +5,7 @@
 
 import type { Engine } from "./engine";
 import { Loopback } from "./loopback";
-import { WorkerHost, load } from "./worker-host";
+import { WorkerHost } from "./worker-host";
 
 export interface Engines {
   quick: Engine;
@@ -28,8 +28,10 @@ export async function openEngines(): Promise<Engines> {
     return { quick: new Loopback(token, `${own}-quick`), heavy: new Loopback(token, `${own}-heavy`) };
   }
   if (!WebAssembly.validate(new Uint8Array(VECTOR))) throw new TooOld("WebAssembly SIMD");
-  const module = await load("engine.wasm");
-  const [quick, heavy] = [new WorkerHost(module, "worker.js"), new WorkerHost(module, "worker.js")];
+  // Workers fetch and compile while the page has its own work, and hand the module on without it.
+  const { port1, port2 } = new MessageChannel();
+  const quick = new WorkerHost("worker.js", { url: "engine.wasm", to: port1 });
+  const heavy = new WorkerHost("worker.js", port2);
   const bytes = new TextEncoder().encode(WARM);
   const file = "warm.nc";
   for (const engine of [quick, heavy]) engine.put(file, bytes);
@@ -40,6 +42,7 @@ export async function openEngines(): Promise<Engines> {
   ];
   // What goes wrong here goes wrong again with the program, and is told then.
   warm.forEach((one) => void one.catch(() => undefined));
+  await Promise.all([quick.started, heavy.started]);
   return { quick, heavy };
 }
 

@@ -4,11 +4,15 @@ import type { Request } from "./engine";
 
 /** To the worker. */
 export type ToWorker =
-  | { kind: "start"; module: WebAssembly.Module }
+  | { kind: "start"; from: Source }
   | { kind: "put"; name: string; bytes: Uint8Array }
   | { kind: "run"; id: number; request: Request };
 
+/** Where a worker has the engine's module from: the server, from where `to` has it too; another worker; or the page. */
+export type Source = { url: string; to: MessagePort } | MessagePort | WebAssembly.Module;
+
 /** From the worker; after `failed` it is of no more use. */
 export type ToHost =
+  | { kind: "started"; module: WebAssembly.Module }
   | { kind: "done"; id: number; code: number; outputs: [string, Uint8Array][] }
   | { kind: "failed"; reason: string };

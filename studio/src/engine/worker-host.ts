@@ -1,20 +1,11 @@
 // The engine as WebAssembly in a worker. To cancel is to end the worker and to start another of the same module.
 
 import { Answer, Cancelled, type Engine, type Request } from "./engine";
-import type { ToHost, ToWorker } from "./wire";
+import type { Source, ToHost, ToWorker } from "./wire";
 
 interface Pending {
   done(answer: Answer): void;
   failed(error: Error): void;
-}
-
-/** The engine's module, compiled while it arrives. */
-export async function load(url: string): Promise<WebAssembly.Module> {
-  const answer = await fetch(url);
-  if (!answer.ok) throw new Error(`${url}: ${answer.status}`);
-  // A server that does not know the type of WebAssembly's files.
-  const typed = answer.headers.get("content-type")?.startsWith("application/wasm");
-  return typed ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 }
 
 export class WorkerHost implements Engine {
@@ -22,12 +13,16 @@ export class WorkerHost implements Engine {
   private readonly files = new Map<string, Uint8Array>();
   private readonly pending = new Map<number, Pending>();
   private last = 0;
+  private module: WebAssembly.Module | undefined;
+  private begun!: { done(): void; failed(error: Error): void };
+  /** Fails where the module does not come; what is asked before waits for it. */
+  readonly started = new Promise<void>((done, failed) => (this.begun = { done, failed }));
 
   constructor(
-    private readonly module: WebAssembly.Module,
     private readonly url: string,
+    from: Source,
   ) {
-    this.worker = this.start();
+    this.worker = this.start(from);
   }
 
   get waiting(): number {
@@ -55,24 +50,33 @@ export class WorkerHost implements Engine {
     this.worker.postMessage(message);
   }
 
-  private start(): Worker {
+  private start(from: Source): Worker {
     const worker = new Worker(this.url, { type: "module" });
     worker.onmessage = (event: MessageEvent<ToHost>) => {
       const message = event.data;
       if (message.kind === "failed") return this.restart(new Error(message.reason));
+      if (message.kind === "started") {
+        this.module = message.module;
+        return this.begun.done();
+      }
       const one = this.pending.get(message.id);
       this.pending.delete(message.id);
       one?.done(new Answer(message.code, new Map(message.outputs)));
     };
     worker.onerror = (event) => this.restart(new Error(event.message));
-    worker.postMessage({ kind: "start", module: this.module } satisfies ToWorker);
+    const port = from instanceof MessagePort ? from : from instanceof WebAssembly.Module ? undefined : from.to;
+    worker.postMessage({ kind: "start", from } satisfies ToWorker, port ? [port] : []);
     return worker;
   }
 
   private restart(error: Error): void {
     this.worker.terminate();
-    this.worker = this.start();
-    for (const [name, bytes] of this.files) this.tell({ kind: "put", name, bytes });
+    if (this.module) {
+      this.worker = this.start(this.module);
+      for (const [name, bytes] of this.files) this.tell({ kind: "put", name, bytes });
+    } else {
+      this.begun.failed(error);
+    }
     const failed = [...this.pending.values()];
     this.pending.clear();
     failed.forEach((one) => one.failed(error));

@@ -1,7 +1,7 @@
 // The engine in a worker: five functions of an instance, with bytes instead of places in its memory.
 // Not here: the order of requests (`worker-host`).
 
-import type { ToHost, ToWorker } from "./wire";
+import type { Source, ToHost, ToWorker } from "./wire";
 
 interface Api {
   memory: WebAssembly.Memory;
@@ -37,12 +37,30 @@ function tell(message: ToHost, transfer: Transferable[] = []): void {
   postMessage(message, { transfer });
 }
 
-function done(message: ToWorker): void {
+/** The engine's module, compiled while it arrives. */
+async function load(url: string): Promise<WebAssembly.Module> {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${url}: ${answer.status}`);
+  // A server that does not know the type of WebAssembly's files.
+  const typed = answer.headers.get("content-type")?.startsWith("application/wasm");
+  return typed ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
+}
+
+async function moduleOf(from: Source): Promise<WebAssembly.Module> {
+  if (from instanceof WebAssembly.Module) return from;
+  if (from instanceof MessagePort) return new Promise((done) => (from.onmessage = ({ data }) => done(data)));
+  const module = await load(from.url);
+  from.to.postMessage(module);
+  return module;
+}
+
+async function done(message: ToWorker): Promise<void> {
   switch (message.kind) {
     case "start": {
-      api = new WebAssembly.Instance(message.module).exports as unknown as Api;
+      const module = await moduleOf(message.from);
+      api = new WebAssembly.Instance(module).exports as unknown as Api;
       length = api.ncc_alloc(4);
-      return;
+      return tell({ kind: "started", module });
     }
     case "put":
       return api?.ncc_put(...given(encoder.encode(message.name)), ...given(message.bytes));
@@ -55,11 +73,10 @@ function done(message: ToWorker): void {
   }
 }
 
+/** What was asked before, until it is done: the module is waited for. */
+let before = Promise.resolve();
+
 onmessage = (event: MessageEvent<ToWorker>) => {
-  try {
-    done(event.data);
-  } catch (error) {
-    // An instance that has trapped is thrown away, with this worker.
-    tell({ kind: "failed", reason: String(error) });
-  }
+  // An instance that has trapped is thrown away, with this worker.
+  before = before.then(() => done(event.data)).catch((error) => tell({ kind: "failed", reason: String(error) }));
 };

@@ -114,6 +114,8 @@ export class MachineView {
     this.controls.addEventListener("change", () => this.draw());
     this.tool.visible = false;
     this.restyle();
+    // A path may come before the observer tells.
+    this.resize();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
     this.wire();
   }

@@ -60,13 +60,16 @@ export class SetupPane {
     host.replaceChildren(this.machine(), this.raw(cut), bench.fixtures(cut), ...(this.hasMachine ? [bench.zero()] : []), this.tools(cut), bench.resolution(), told);
   }
 
-  /** The machine, where the bar above has no room for it. */
+  /** The machine, where the bar above has no room for it, and which files of the project file are not at hand. */
   private machine(): HTMLElement {
     const chosen = this.session.project.get()?.choices.machine;
     const all = [{ id: "", title: say("noMachine") }, ...this.session.machines];
     const list = el("select", { "aria-label": say("machine") }, ...all.map(({ id, title }) => el("option", { value: id, selected: id === chosen }, title)));
     list.addEventListener("change", () => void this.desk.choose(({ choices }) => (choices.machine = list.value)));
-    return el("section", { class: "phone-only" }, el("h2", {}, say("machine")), list);
+    const told = this.session.stated.get()?.told ?? [];
+    const lacking = told.map((text) => el("p", { class: "guess" }, text));
+    const look = { id: "set-up-machine", class: told.length > 0 ? "" : "phone-only" };
+    return el("section", look, el("h2", {}, say("machine")), el("div", { class: "phone-only" }, list), ...lacking);
   }
 
   /** Whether it is known which machine has the part. */
@@ -104,6 +107,8 @@ export class SetupPane {
     const names: TextName[] = ["tool", "shape", "diameter", "detail", "flute", "shank", "holder", "holderFrom", "knownBy", "time", "removed"];
     const head = el("tr", {}, ...names.map((name) => el("th", { scope: "col" }, say(name))));
     const rows = (cut?.tools ?? []).map((tool, at) => this.tool(tool, at));
+    // Where a row has no room, each field has its name beside it.
+    for (const row of rows) row.querySelectorAll("td").forEach((cell, at) => (cell.dataset.name = say(names[at + 1] as TextName)));
     const table = el("table", {}, el("thead", {}, head), el("tbody", {}, ...rows));
     return el("section", {}, el("h2", {}, say("tools")), el("div", { class: "wide-table" }, table));
   }

@@ -20,6 +20,8 @@ export interface Stated {
   table: number | null;
   /** Files that it names. */
   files: string[];
+  /** Which of them are not at hand, in words. */
+  told: string[];
 }
 
 /** What is set up on the machine, in the form of the command line; empty where nothing is stated. */

@@ -103,7 +103,7 @@ export class Charts {
       scales: { x: { time: false } },
       axes: [
         // The last one's axis is that of all.
-        { ...axis, size: last ? 16 : 4, gap: 2, values: (_, all) => all.map((value) => (last ? `${value} s` : "")) },
+        { ...axis, size: last ? 16 : 8, gap: 2, values: (_, all) => all.map((value) => (last ? `${value} s` : "")) },
         { ...axis, size: 46, gap: 4, space: 22 },
       ],
       series: [{}, { stroke: ink(row.ink), width: 1.2, points: { show: false } }],

@@ -8,21 +8,24 @@ use super::document::Hashed;
 use crate::render::report::hex;
 use crate::side::Side;
 
-/// A text with its name and, if it is not one that comes with ncc, its file.
-pub type Named<'t> = (&'t str, Option<String>, &'t str);
-
-fn hashed(name: &str, file: Option<String>, text: &[u8]) -> Hashed {
+/// A text by its name and, if it is not one that comes with ncc, its file.
+pub fn hashed(name: &str, file: Option<String>, text: &[u8]) -> Hashed {
     Hashed { name: name.to_owned(), file, sha256: hex(&Sha256::digest(text)) }
 }
 
-/// The dictionaries of both sides, each with what it builds on, each once; `texts` has those of a dialect.
-pub fn dictionaries<'t>(sides: &[Side; 2], texts: &dyn Fn(&str) -> Vec<Named<'t>>) -> Vec<Hashed> {
+/// The text of a built-in dialect.
+pub fn built_in(id: &str) -> Option<Hashed> {
+    let at = ncc_dialects::builtin_ids().position(|other| other == id)?;
+    let (name, sha256) = ncc_dialects::builtin_sha256(at)?;
+    Some(Hashed { name: name.to_owned(), file: None, sha256: hex(sha256) })
+}
+
+/// The dictionaries of both sides, each with what it builds on, each once; `hashes` has those of a dialect.
+pub fn dictionaries(sides: &[Side; 2], hashes: &dyn Fn(&str) -> Vec<Hashed>) -> Vec<Hashed> {
     let mut all: Vec<Hashed> = Vec::new();
-    for side in sides {
-        for (name, file, text) in texts(&side.dialect().id) {
-            if all.iter().all(|other| other.name != name) {
-                all.push(hashed(name, file, text.as_bytes()));
-            }
+    for own in sides.iter().flat_map(|side| hashes(&side.dialect().id)) {
+        if all.iter().all(|other| other.name != own.name) {
+            all.push(own);
         }
     }
     all
