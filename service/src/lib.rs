@@ -48,6 +48,8 @@ pub struct Limits {
     pub head: Duration,
     /// How long the body of a request may take.
     pub body: Duration,
+    /// How long a client may read nothing of its answer.
+    pub reader: Duration,
 }
 
 impl Default for Limits {
@@ -59,6 +61,7 @@ impl Default for Limits {
             work: Duration::from_secs(30),
             head: Duration::from_secs(30),
             body: Duration::from_secs(120),
+            reader: Duration::from_secs(30),
         }
     }
 }
@@ -234,7 +237,7 @@ impl Service {
                     tokio::time::sleep(Duration::from_millis(50)).await;
                 }
             };
-            connections::serve(listener, routes, self.limits.head, stopped).await
+            connections::serve(listener, routes, self.limits, stopped).await
         })?;
         runtime.shutdown_background();
         Ok(())

@@ -17,11 +17,6 @@ const ENDLESS: &str = "%\nO1\nG21G90G17G40G80\n#1=0\nWHILE[#1LT1]DO1\n#2=#2+1\nE
 
 const LONG: &str = "/transpiler/long?dialect=fanuc";
 
-/// A program of so many bytes.
-fn long_program(bytes: usize) -> String {
-    format!("{PROGRAM}{}", "\n".repeat(bytes - PROGRAM.len()))
-}
-
 fn threads() -> usize {
     std::thread::available_parallelism().map_or(2, usize::from)
 }
@@ -30,7 +25,7 @@ fn threads() -> usize {
 #[test]
 fn a_body_has_its_largest_size() {
     let server = Server::limited(Limits { largest: 20_000, ..Limits::default() });
-    let largest = long_program(20_000);
+    let largest = format!("{PROGRAM}{}", "\n".repeat(20_000 - PROGRAM.len()));
     let target = "/transpiler/a?dialect=mach9";
     assert_eq!(server.program("POST", target, &largest).status, 201);
     let promised = |bytes: u64| {
@@ -221,13 +216,39 @@ fn bodies_have_their_size_together() {
     server.keep("b");
     drop((promises, held, more));
     let since = Instant::now();
-    let large = long_program(800_000);
+    let large = " ".repeat(800_000);
     loop {
-        let status = server.program("POST", "/transpiler/large?dialect=mach9", &large).status;
-        if status == 201 {
+        let status = server.json("POST", "/persistence/a", large.as_bytes()).status;
+        if status == 422 {
             break;
         }
         assert!(status == 503 && since.elapsed() < Duration::from_secs(10), "{status}");
         std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// A client that does not read its answer loses it, and one that reads slowly does not.
+#[test]
+fn a_reader_has_its_time() {
+    let server = Server::limited(Limits { reader: Duration::from_millis(300), ..Limits::default() });
+    server.keep("a");
+    let mut document = server.get("/persistence/a?form=whole").json();
+    document["parts"]["cmf"] = "STOP_SPINDLE_TURNING()\n".repeat(1 << 20).into();
+    let media = [("Content-Type", "application/vnd.ncc.document+json")];
+    let put = server.ask("PUT", "/persistence/a", &media, document.to_string().as_bytes());
+    assert_eq!(put.status, 204, "{}", put.text());
+    let whole = server.get("/output/a?type=cmf").body.len();
+    assert!(whole > 16 << 20, "more than the system keeps of a connection: {whole}");
+    let read = |pause: Duration, step: usize| {
+        let mut stream = server.send("GET", "/output/a?type=cmf", &[], b"");
+        std::thread::sleep(pause);
+        let (mut all, mut piece) = (0, vec![0; step]);
+        while let Ok(bytes @ 1..) = stream.read(&mut piece) {
+            all += bytes;
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        all
+    };
+    assert!(read(Duration::from_millis(1500), 1 << 20) < whole);
+    assert!(read(Duration::ZERO, 1 << 17) > whole);
 }
