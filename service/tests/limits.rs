@@ -100,6 +100,22 @@ fn work_has_its_time() {
     assert_eq!(server.get("/persistence/long").status, 404);
 }
 
+/// What was stopped before it was stored is not stored.
+#[test]
+fn what_was_stopped_is_not_stored() {
+    let server = Server::limited(Limits { work: Duration::from_millis(1), ..Limits::default() });
+    let mut payload = {
+        let made = Server::all();
+        made.keep("a");
+        made.get("/persistence/a?form=ncc").json()
+    };
+    let blocks = vec![payload["blocks"][0].clone(); 40_000];
+    payload["blocks"] = blocks.into();
+    let answer = server.json("POST", "/persistence/a", payload.to_string().as_bytes());
+    assert_eq!((answer.status, answer.json()["type"].as_str()), (422, Some("urn:ncc:problem:too-long")));
+    assert_eq!(server.get("/persistence/a").status, 404);
+}
+
 /// A loop without end is found by its steps.
 #[test]
 fn a_loop_has_its_steps() {
