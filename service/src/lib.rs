@@ -53,6 +53,8 @@ pub struct Limits {
     pub head: Duration,
     /// How long the body of a request may take.
     pub body: Duration,
+    /// How long a client may read nothing of its answer.
+    pub reader: Duration,
 }
 
 impl Default for Limits {
@@ -64,6 +66,7 @@ impl Default for Limits {
             work: Duration::from_secs(30),
             head: Duration::from_secs(30),
             body: Duration::from_secs(120),
+            reader: Duration::from_secs(30),
         }
     }
 }
@@ -276,7 +279,7 @@ impl Service {
                 }
                 let _ = stop.send(true);
             };
-            let served = connections::serve(listener, routes, self.limits.head, stopped).await;
+            let served = connections::serve(listener, routes, self.limits, stopped).await;
             for worker in workers {
                 // One that broke off has left its task to others.
                 let _ = worker.await;

@@ -47,11 +47,11 @@ impl Pool {
         self.limit
     }
 
-    /// Does a piece of work.
-    pub(crate) async fn run<T: Send + 'static>(
+    /// Does a piece of work. One that ends well although its time was over is done: it may have been stored.
+    pub(crate) async fn run<T: Send + 'static, E: Send + 'static>(
         &self,
-        work: impl FnOnce() -> T + Send + 'static,
-    ) -> Result<T, NotDone> {
+        work: impl FnOnce() -> Result<T, E> + Send + 'static,
+    ) -> Result<Result<T, E>, NotDone> {
         let _place = self.places.try_acquire().map_err(|_| NotDone::Busy)?;
         self.run_in_turn(work).await
     }
@@ -64,14 +64,19 @@ impl Pool {
         let thread = self.threads.clone().acquire_owned().await.map_err(|_| NotDone::Broken)?;
         let waiting = Waiting(Halt::default());
         let halt = waiting.0.clone();
-        let done = tokio::task::spawn_blocking(move || {
+        let mut done = tokio::task::spawn_blocking(move || {
             // Its thread is taken until it has stopped, also where nobody waits for it any more.
             let _thread = thread;
             halt::under(Some(halt), work)
         });
-        match tokio::time::timeout(self.limit, done).await {
-            Ok(done) => done.map_err(|_| NotDone::Broken),
-            Err(_) => Err(NotDone::TooLong),
+        if let Ok(done) = tokio::time::timeout(self.limit, &mut done).await {
+            return done.map_err(|_| NotDone::Broken);
+        }
+        waiting.0.ask();
+        match done.await {
+            Ok(Ok(done)) => Ok(Ok(done)),
+            Ok(Err(_)) => Err(NotDone::TooLong),
+            Err(_) => Err(NotDone::Broken),
         }
     }
 }
@@ -87,12 +92,12 @@ mod tests {
         tokio::runtime::Builder::new_multi_thread().enable_time().build().expect("a runtime")
     }
 
-    fn until_asked() -> bool {
+    fn until_asked() -> Result<(), ()> {
         let begun = Instant::now();
         while !halt::is_asked() && begun.elapsed() < Duration::from_secs(20) {
             std::thread::sleep(Duration::from_millis(1));
         }
-        halt::is_asked()
+        Err(())
     }
 
     #[test]
@@ -104,6 +109,16 @@ mod tests {
     }
 
     #[test]
+    fn work_that_was_done_all_the_same_is_told_so() {
+        let pool = Pool::new(1, 1, Duration::from_millis(30));
+        let deaf = || {
+            std::thread::sleep(Duration::from_millis(200));
+            Ok::<_, ()>(1)
+        };
+        assert_eq!(runtime().block_on(pool.run(deaf)), Ok(Ok(1)));
+    }
+
+    #[test]
     fn a_thread_is_taken_until_its_work_has_stopped() {
         let pool = Pool::new(1, 1, Duration::from_secs(10));
         let ended = Arc::new(AtomicBool::new(false));
@@ -112,32 +127,39 @@ mod tests {
             let first = pool.run(move || {
                 std::thread::sleep(Duration::from_millis(300));
                 deaf.store(true, Ordering::SeqCst);
+                Ok::<_, ()>(())
             });
             // Nobody waits for the first any more.
             let gone = tokio::time::timeout(Duration::from_millis(50), first).await;
             assert!(gone.is_err());
-            pool.run(move || ended.load(Ordering::SeqCst)).await
+            pool.run(move || Ok::<_, ()>(ended.load(Ordering::SeqCst))).await
         });
-        assert_eq!(seen, Ok(true));
+        assert_eq!(seen, Ok(Ok(true)));
     }
 
     #[test]
     fn a_full_pool_takes_no_more() {
         let pool = Pool::new(1, 1, Duration::from_secs(10));
         let done = runtime().block_on(async {
-            let first = pool.run(|| std::thread::sleep(Duration::from_millis(50)));
-            let second = pool.run(|| ());
-            let third = pool.run(|| ());
+            let first = pool.run(|| {
+                std::thread::sleep(Duration::from_millis(50));
+                Ok::<_, ()>(())
+            });
+            let second = pool.run(|| Ok::<_, ()>(()));
+            let third = pool.run(|| Ok::<_, ()>(()));
             tokio::join!(first, second, third)
         });
-        assert_eq!(done, (Ok(()), Ok(()), Err(NotDone::Busy)));
+        assert_eq!(done, (Ok(Ok(())), Ok(Ok(())), Err(NotDone::Busy)));
     }
 
     #[test]
     fn a_panic_is_the_end_of_its_own_work_alone() {
         let pool = Pool::new(1, 1, Duration::from_secs(10));
         let runtime = runtime();
-        assert_eq!(runtime.block_on(pool.run(|| -> u8 { panic!("on purpose") })), Err(NotDone::Broken));
-        assert_eq!(runtime.block_on(pool.run(|| 1)), Ok(1));
+        assert_eq!(
+            runtime.block_on(pool.run(|| -> Result<u8, ()> { panic!("on purpose") })),
+            Err(NotDone::Broken)
+        );
+        assert_eq!(runtime.block_on(pool.run(|| Ok::<_, ()>(1))), Ok(Ok(1)));
     }
 }

@@ -17,11 +17,6 @@ const ENDLESS: &str = "%\nO1\nG21G90G17G40G80\n#1=0\nWHILE[#1LT1]DO1\n#2=#2+1\nE
 
 const LONG: &str = "/transpiler/long?dialect=fanuc";
 
-/// A program of so many bytes.
-fn long_program(bytes: usize) -> String {
-    format!("{PROGRAM}{}", "\n".repeat(bytes - PROGRAM.len()))
-}
-
 fn threads() -> usize {
     std::thread::available_parallelism().map_or(2, usize::from)
 }
@@ -30,7 +25,7 @@ fn threads() -> usize {
 #[test]
 fn a_body_has_its_largest_size() {
     let server = Server::limited(Limits { largest: 20_000, ..Limits::default() });
-    let largest = long_program(20_000);
+    let largest = format!("{PROGRAM}{}", "\n".repeat(20_000 - PROGRAM.len()));
     let target = "/transpiler/a?dialect=mach9";
     assert_eq!(server.program("POST", target, &largest).status, 201);
     let promised = |bytes: u64| {
@@ -103,6 +98,22 @@ fn work_has_its_time() {
     server.keep("a");
     assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     assert_eq!(server.get("/persistence/long").status, 404);
+}
+
+/// What was stopped before it was stored is not stored.
+#[test]
+fn what_was_stopped_is_not_stored() {
+    let server = Server::limited(Limits { work: Duration::from_millis(1), ..Limits::default() });
+    let mut payload = {
+        let made = Server::all();
+        made.keep("a");
+        made.get("/persistence/a?form=ncc").json()
+    };
+    let blocks = vec![payload["blocks"][0].clone(); 40_000];
+    payload["blocks"] = blocks.into();
+    let answer = server.json("POST", "/persistence/a", payload.to_string().as_bytes());
+    assert_eq!((answer.status, answer.json()["type"].as_str()), (422, Some("urn:ncc:problem:too-long")));
+    assert_eq!(server.get("/persistence/a").status, 404);
 }
 
 /// A loop without end is found by its steps.
@@ -198,20 +209,20 @@ fn a_body_has_its_time() {
 /// All bodies together have their size; bytes that are promised do not count.
 #[test]
 fn bodies_have_their_size_together() {
-    let server = Server::limited(Limits { bodies: 100_000, ..Limits::default() });
+    let server = Server::limited(Limits { bodies: 1_000_000, ..Limits::default() });
     let head = |bytes: usize| {
         format!("POST /transpiler/a HTTP/1.1\r\nHost: {}\r\nContent-Length: {bytes}\r\n\r\n", server.address)
     };
     let begin = |sent: usize| {
         let mut stream = server.connect();
-        stream.write_all(head(90_000).as_bytes()).expect("a head");
+        stream.write_all(head(900_000).as_bytes()).expect("a head");
         stream.write_all(&vec![b' '; sent]).expect("a part of a body");
         stream
     };
     let promises = (0..10).map(|_| begin(10)).collect::<Vec<_>>();
-    let held = begin(80_000);
+    let held = begin(800_000);
     std::thread::sleep(Duration::from_millis(300));
-    let mut more = begin(30_000);
+    let mut more = begin(300_000);
     let answer = {
         let mut first = [0; 12];
         more.read_exact(&mut first).expect("an answer");
@@ -221,14 +232,39 @@ fn bodies_have_their_size_together() {
     server.keep("b");
     drop((promises, held, more));
     let since = Instant::now();
-    let large = long_program(80_000);
+    let large = " ".repeat(800_000);
     loop {
-        let answer = server.program("POST", "/transpiler/large?dialect=mach9", &large);
-        let status = answer.status;
-        if status == 201 {
+        let status = server.json("POST", "/persistence/a", large.as_bytes()).status;
+        if status == 422 {
             break;
         }
-        assert!(status == 503 && since.elapsed() < Duration::from_secs(10), "{}", answer.text());
+        assert!(status == 503 && since.elapsed() < Duration::from_secs(10), "{status}");
         std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// A client that does not read its answer loses it, and one that reads slowly does not.
+#[test]
+fn a_reader_has_its_time() {
+    let server = Server::limited(Limits { reader: Duration::from_millis(300), ..Limits::default() });
+    server.keep("a");
+    let mut document = server.get("/persistence/a?form=whole").json();
+    document["parts"]["cmf"] = "STOP_SPINDLE_TURNING()\n".repeat(1 << 20).into();
+    let media = [("Content-Type", "application/vnd.ncc.document+json")];
+    let put = server.ask("PUT", "/persistence/a", &media, document.to_string().as_bytes());
+    assert_eq!(put.status, 204, "{}", put.text());
+    let whole = server.get("/output/a?type=cmf").body.len();
+    assert!(whole > 16 << 20, "more than the system keeps of a connection: {whole}");
+    let read = |pause: Duration, step: usize| {
+        let mut stream = server.send("GET", "/output/a?type=cmf", &[], b"");
+        std::thread::sleep(pause);
+        let (mut all, mut piece) = (0, vec![0; step]);
+        while let Ok(bytes @ 1..) = stream.read(&mut piece) {
+            all += bytes;
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        all
+    };
+    assert!(read(Duration::from_millis(1500), 1 << 20) < whole);
+    assert!(read(Duration::ZERO, 1 << 17) > whole);
 }

@@ -29,9 +29,15 @@ pub(crate) struct Found {
     pub(crate) parts: Parts,
 }
 
+/// Nothing is changed for a request that has been stopped.
+fn heed() -> Result<(), Problem> {
+    if ncc_exec::halt::is_asked() { Err(Problem::busy("the request has been stopped")) } else { Ok(()) }
+}
+
 impl Shelf {
     /// Keeps a document under a name that is free; gives its tag.
     pub(crate) fn create(&self, name: &str, of: &[String; 2], parts: Parts) -> Result<String, Problem> {
+        heed()?;
         match self {
             Shelf::Here(store) => Ok(store.create(name, [&of[0], &of[1]], &parts)?),
             Shelf::There(remote) => remote.create(name, &whole(of, parts)?),
@@ -46,6 +52,7 @@ impl Shelf {
         parts: Parts,
         over: &Condition,
     ) -> Result<String, Problem> {
+        heed()?;
         match self {
             Shelf::Here(store) => Ok(store.replace(name, [&of[0], &of[1]], &parts, over)?),
             Shelf::There(remote) => remote.replace(name, &whole(of, parts)?, over),

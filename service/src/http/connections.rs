@@ -1,7 +1,7 @@
 //! Connections: how many, how long a client may take for the head of its request, and how they end.
 //!
 //! A head that does not come within its time is the end of its connection, also where none has been begun, so that idle
-//! clients hold nothing for ever. Not here: bodies ([`super::arrival`]) and answers.
+//! clients hold nothing for ever. So does an answer that its client does not read. Not here: bodies ([`super::arrival`]) and answers.
 
 use std::io;
 use std::sync::Arc;
@@ -14,8 +14,9 @@ use hyper_util::server::graceful::GracefulShutdown;
 use hyper_util::service::TowerToHyperService;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
+use tokio_io_timeout::TimeoutStream;
 
-use crate::log;
+use crate::{Limits, log};
 
 /// Connections at once at most; further ones wait. A process has 1024 open files at least.
 const CONNECTIONS: usize = 512;
@@ -33,7 +34,7 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(crate) async fn serve(
     listener: TcpListener,
     routes: Router,
-    head: Duration,
+    limits: Limits,
     stopped: impl Future<Output = ()>,
 ) -> io::Result<()> {
     let places = Arc::new(Semaphore::new(CONNECTIONS));
@@ -58,11 +59,13 @@ pub(crate) async fn serve(
         };
         // Answers are written as a whole; nothing is gained by waiting for more.
         let _ = stream.set_nodelay(true);
+        let mut stream = TimeoutStream::new(stream);
+        stream.set_write_timeout(Some(limits.reader));
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())
-            .header_read_timeout(head)
+            .header_read_timeout(limits.head)
             .max_buf_size(HEAD)
-            .serve_connection(TokioIo::new(stream), TowerToHyperService::new(routes.clone()));
+            .serve_connection(TokioIo::new(Box::pin(stream)), TowerToHyperService::new(routes.clone()));
         let connection = graceful.watch(connection);
         tokio::spawn(async move {
             // A client that breaks off is no fault of the service.
