@@ -57,10 +57,10 @@ impl Pool {
     }
 
     /// The same as soon as a thread is free, however many wait.
-    pub(crate) async fn run_in_turn<T: Send + 'static>(
+    pub(crate) async fn run_in_turn<T: Send + 'static, E: Send + 'static>(
         &self,
-        work: impl FnOnce() -> T + Send + 'static,
-    ) -> Result<T, NotDone> {
+        work: impl FnOnce() -> Result<T, E> + Send + 'static,
+    ) -> Result<Result<T, E>, NotDone> {
         let thread = self.threads.clone().acquire_owned().await.map_err(|_| NotDone::Broken)?;
         let waiting = Waiting(Halt::default());
         let halt = waiting.0.clone();
