@@ -1,19 +1,15 @@
 //! A program's moves on a part.
 
-use std::ops::Range;
-
-use wide::{CmpGt, CmpLt, f32x4};
-
 use crate::alarm::{Alarm, AlarmKind};
-use crate::cut::{Cut, Hit, Removed, TOUCH, cut_between, probe_between, take};
+use crate::cut::{Cut, Hit, Removed, TOUCH, cut_between, probe_between};
+use crate::cutting::{lower, probe};
 use crate::history::{History, STRIDE};
 use crate::leaning::{Leaning, Path};
-use crate::map::{Grid, HeightMap};
+use crate::map::HeightMap;
 use crate::moves::{Axes, Move, Way};
 use crate::slices::Convex;
 use crate::stock::{Fixture, Stock};
-use crate::surface::{COUNT, Cells, LANES, Surface};
-use crate::sweep::{chords, sweep};
+use crate::sweep::chords;
 use crate::tool::{Cutter, Tool};
 use crate::under::through;
 
@@ -202,17 +198,8 @@ impl Simulation {
         }
         let before = number.checked_sub(1).map(|before| &self.moves[before]);
         let continues = before.is_some_and(|before| before.tool == own.tool && before.way != Way::Away);
-        let mut cutting = Cutting {
-            map: &mut self.map,
-            number: number as u32 + 1,
-            cut: Cut::default(),
-            cells: 0.0,
-            sums: Sums::default(),
-        };
-        sweep(&mut cutting, &tool.cutter, [from, own.end], &own.way, continues);
-        cutting.add_up();
-        let Cutting { mut cut, cells, .. } = cutting;
-        cut.removed.volume = (cells * self.map.grid.cell * self.map.grid.cell) as f32;
+        let number = number as u32 + 1;
+        let cut = lower(&mut self.map, number, &tool.cutter, [from, own.end], &own.way, continues);
         self.history.touch(&cut.columns, &cut.rows);
         cut
     }
@@ -391,156 +378,5 @@ fn lowest(from: [f64; 3], own: &Move) -> f64 {
         }
         Way::Away => f64::INFINITY,
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
-    }
-}
-
-/// Lowers a map.
-struct Cutting<'m> {
-    map: &'m mut HeightMap,
-    number: u32,
-    cut: Cut,
-    /// What was removed, in heights of cells.
-    cells: f64,
-    sums: Sums,
-}
-
-impl Cutting<'_> {
-    /// As [`Cells::row`], cell by cell.
-    #[cold]
-    fn row_with_hollows(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
-        let start = row * self.map.grid.cells[0];
-        for first in columns.clone().step_by(LANES) {
-            let new = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
-            for (column, new) in (first..columns.end).zip(new) {
-                let taken = take(self.map, start + column, [new, f32::INFINITY], self.number);
-                self.cells += f64::from(taken);
-                self.cut.removed.depth = self.cut.removed.depth.max(taken);
-            }
-        }
-    }
-
-    /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
-    #[cold]
-    fn last_row(&mut self, begin: usize, count: usize, surface: impl Surface) {
-        let (heights, last) =
-            (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
-        for (n, (heights, last)) in heights.chunks_mut(LANES).zip(last.chunks_mut(LANES)).enumerate() {
-            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
-            few[..heights.len()].copy_from_slice(heights);
-            of[..last.len()].copy_from_slice(last);
-            let new = surface.at(COUNT + f32x4::splat((n * LANES) as f32));
-            self.sums.lower(&mut few, &mut of, new.to_array(), self.number);
-            heights.copy_from_slice(&few[..heights.len()]);
-            last.copy_from_slice(&of[..last.len()]);
-        }
-    }
-
-    /// Adds what was removed since the last time: single precision is fine enough for so much.
-    fn add_up(&mut self) {
-        let Sums { volumes, depths } = std::mem::take(&mut self.sums);
-        self.cells += f64::from(volumes.into_iter().sum::<f32>());
-        self.cut.removed.depth = depths.into_iter().fold(self.cut.removed.depth, f32::max);
-    }
-}
-
-/// What was removed in some cells, in as many sums.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    volumes: [f32; LANES],
-    depths: [f32; LANES],
-}
-
-impl Sums {
-    /// Lowers cells to a surface, where that is lower. Without a branch, which the next cells could not be waited for.
-    #[inline(always)]
-    fn lower(&mut self, heights: &mut [f32; LANES], last: &mut [u32; LANES], new: [f32; LANES], number: u32) {
-        for lane in 0..LANES {
-            let old = heights[lane];
-            let mask = if new[lane] < old { u32::MAX } else { 0 };
-            // Nothing less nothing is no number; it is masked out.
-            let depth = f32::from_bits((old - new[lane]).to_bits() & mask);
-            heights[lane] = if new[lane] < old { new[lane] } else { old };
-            last[lane] = last[lane] & !mask | number & mask;
-            self.volumes[lane] += depth;
-            self.depths[lane] = if depth > self.depths[lane] { depth } else { self.depths[lane] };
-        }
-    }
-}
-
-impl Cells for Cutting<'_> {
-    #[inline]
-    fn grid(&self) -> Grid {
-        self.map.grid
-    }
-
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
-        self.cut.reaches(rows, columns);
-        self.add_up();
-    }
-
-    #[inline(always)]
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
-        if !self.map.hollows.is_empty() {
-            self.row_with_hollows(row, columns, surface);
-            return;
-        }
-        let begin = row * self.map.grid.cells[0] + columns.start;
-        let whole = begin..begin + columns.len().next_multiple_of(LANES);
-        let Some(heights) = self.map.heights.get_mut(whole.clone()) else {
-            self.last_row(begin, columns.len(), surface);
-            return;
-        };
-        let last = &mut self.map.last[whole];
-        let mut sums = self.sums;
-        let least = f32x4::splat(surface.least(columns.len()));
-        let (count, mut at) = (f32x4::splat(columns.len() as i32 as f32), COUNT);
-        for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
-            let old = f32x4::new(*heights);
-            // Most of what a tool goes over is cut already: the surface is looked at where it may be lower, and cells are
-            // written where it is. Cells behind the last one are those of the next row, and stay.
-            if old.cmp_gt(least).any() {
-                let new = at.cmp_lt(count).blend(surface.at(at), f32x4::splat(f32::INFINITY));
-                if new.cmp_lt(old).any() {
-                    sums.lower(heights, last, new.to_array(), self.number);
-                }
-            }
-            at += f32x4::splat(LANES as f32);
-        }
-        self.sums = sums;
-    }
-}
-
-/// How deep a part of a tool goes into a map along a move, where it does.
-fn probe(map: &HeightMap, part: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
-    let mut probing = Probing { map, worst: None };
-    sweep(&mut probing, part, [from, own.end], &own.way, false);
-    probing.worst
-}
-
-/// Looks at a map.
-struct Probing<'m> {
-    map: &'m HeightMap,
-    worst: Option<Hit>,
-}
-
-impl Cells for Probing<'_> {
-    fn grid(&self) -> Grid {
-        self.map.grid
-    }
-
-    fn reaches(&mut self, _rows: &Range<usize>, _columns: &Range<usize>) {}
-
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
-        let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
-        for first in columns.clone().step_by(LANES) {
-            let tools = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
-            for (column, tool) in (first..columns.end).zip(tools) {
-                let depth = self.map.heights[start + column] - tool;
-                if depth > self.worst.map_or(TOUCH, |worst| worst.depth) {
-                    let place = [grid.centre(0, column), grid.centre(1, row), f64::from(tool)];
-                    self.worst = Some(Hit { place, depth });
-                }
-            }
-        }
     }
 }

@@ -1,41 +1,79 @@
-//! Surfaces that tools leave over the cells of a row, four cells at once.
+//! Surfaces that tools leave over the cells of a row, eight cells at once.
 //!
 //! Along a line, cells lie `s` along it and `d` across ([`Across`]).
 
 use std::ops::Range;
+use std::sync::LazyLock;
 
-use wide::{CmpGe, CmpGt, CmpLe, CmpLt, f32x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8};
 
 use crate::map::Grid;
 
-/// Cells that are worked on together: compilers make one instruction of what is done to four.
-pub(crate) const LANES: usize = 4;
+/// Cells of a group. The widest vectors used hold eight numbers (AVX2); narrower ones take two or more instructions.
+pub(crate) const LANES: usize = 8;
 
-/// Their places, from the first of them.
-pub(crate) const COUNT: f32x4 = f32x4::new([0.0, 1.0, 2.0, 3.0]);
+/// Vector instructions of this processor. All of them give the same results, bit by bit.
+pub(crate) fn level() -> fearless_simd::Level {
+    static LEVEL: LazyLock<fearless_simd::Level> = LazyLock::new(fearless_simd::Level::new);
+    *LEVEL
+}
+
+/// Indices of the cells of a group whose first cell has index `first`.
+#[inline(always)]
+pub(crate) fn indices<S: Simd>(simd: S, first: usize) -> f32x8<S> {
+    f32x8::simd_from(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]) + first as i32 as f32
+}
+
+/// An endless height: the tool cuts no cell that has it.
+#[inline(always)]
+pub(crate) fn endless<S: Simd>(simd: S) -> f32x8<S> {
+    f32x8::splat(simd, f32::INFINITY)
+}
 
 /// Steps by which the place is found where a round corner touches: each halves what is not known.
 const HALVINGS: usize = 10;
 
 /// A visitor of the surface that a move leaves, row by row.
 pub(crate) trait Cells {
+    /// Sums over the rows of one box. They are apart from the visitor so that they stay in registers from row to row.
+    type Sums<S: Simd>: Copy;
+
     /// The grid of the cells.
     fn grid(&self) -> Grid;
 
-    /// Rows of these columns come.
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>);
+    /// Begins a box of these rows and columns.
+    fn begin<S: Simd>(&mut self, simd: S, rows: &Range<usize>, columns: &Range<usize>) -> Self::Sums<S>;
 
     /// The surface over some cells of a row.
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface);
+    fn row<S: Simd, W: Surface<S>>(
+        &mut self,
+        sums: Self::Sums<S>,
+        simd: S,
+        row: usize,
+        columns: Range<usize>,
+        surface: W,
+    ) -> Self::Sums<S>;
+
+    /// Ends a box.
+    fn end<S: Simd>(&mut self, sums: Self::Sums<S>);
 }
 
-/// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
-pub(crate) trait Surface: Copy {
-    /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
-    fn at(&self, i: f32x4) -> f32x4;
+/// A surface over cells of a row. No closure: a closure is no part of the code compiled for an instruction set.
+pub(crate) trait Surface<S: Simd>: Copy {
+    /// Whether [`Surface::at`] costs no more than the test whether it is needed.
+    const IS_CHEAP: bool = false;
+
+    /// Its heights over eight cells, counted from the first one of these; an infinite one is no surface.
+    fn at(&self, i: f32x8<S>) -> f32x8<S>;
 
     /// A height that it does not go below over the first so many cells.
     fn least(&self, cells: usize) -> f32;
+}
+
+/// A surface along a line.
+pub(super) trait Along<S: Simd>: Surface<S> {
+    /// The same surface over the cells of another row.
+    fn on(self, at: Across) -> Self;
 }
 
 /// The values that all surfaces along a line share.
@@ -59,32 +97,34 @@ impl Sloped {
 
     /// How far along the way the band touches what is so far from it.
     #[inline(always)]
-    pub(super) fn half(&self, d: f32x4) -> f32x4 {
-        not_below_zero(f32x4::splat(self.outer) - d * d).sqrt()
+    pub(super) fn half<S: Simd>(&self, d: f32x8<S>) -> f32x8<S> {
+        not_below_zero(self.outer - d * d).sqrt()
     }
 }
 
 /// A surface along a line, where a tool of that radius comes.
 #[derive(Clone, Copy)]
 pub(super) struct Within<W> {
-    pub(super) way: W,
+    pub(super) along: W,
     pub(super) at: Across,
     /// Square of the radius.
     pub(super) outer: f32,
 }
 
-impl<W: Surface> Surface for Within<W> {
+impl<S: Simd, W: Surface<S>> Surface<S> for Within<W> {
+    const IS_CHEAP: bool = W::IS_CHEAP;
+
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn at(&self, i: f32x8<S>) -> f32x8<S> {
         let (s, d) = self.at.of(i);
         let e = s - self.at.clamped(s);
-        let inside = (d * d + e * e).cmp_le(f32x4::splat(self.outer));
-        inside.blend(self.way.at(i), f32x4::splat(f32::INFINITY))
+        let inside = (d * d + e * e).simd_le(self.outer);
+        inside.select(self.along.at(i), endless(i.simd))
     }
 
     #[inline(always)]
     fn least(&self, cells: usize) -> f32 {
-        self.way.least(cells)
+        self.along.least(cells)
     }
 }
 
@@ -92,10 +132,12 @@ impl<W: Surface> Surface for Within<W> {
 #[derive(Clone, Copy)]
 pub(super) struct Level(pub(super) f32);
 
-impl Surface for Level {
+impl<S: Simd> Surface<S> for Level {
+    const IS_CHEAP: bool = true;
+
     #[inline(always)]
-    fn at(&self, _i: f32x4) -> f32x4 {
-        f32x4::splat(self.0)
+    fn at(&self, i: f32x8<S>) -> f32x8<S> {
+        f32x8::splat(i.simd, self.0)
     }
 
     #[inline(always)]
@@ -104,13 +146,20 @@ impl Surface for Level {
     }
 }
 
+impl<S: Simd> Along<S> for Level {
+    #[inline(always)]
+    fn on(self, _at: Across) -> Level {
+        self
+    }
+}
+
 /// A level bottom: the lowest end of what touches.
 #[derive(Clone, Copy)]
 pub(super) struct Flat(pub(super) Sloped);
 
-impl Surface for Flat {
+impl<S: Simd> Surface<S> for Flat {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn at(&self, i: f32x8<S>) -> f32x8<S> {
         let own = &self.0;
         let (s, d) = own.at.of(i);
         let half = own.half(d);
@@ -124,6 +173,13 @@ impl Surface for Flat {
     }
 }
 
+impl<S: Simd> Along<S> for Flat {
+    #[inline(always)]
+    fn on(self, at: Across) -> Flat {
+        Flat(Sloped { at, ..self.0 })
+    }
+}
+
 /// A ball.
 #[derive(Clone, Copy)]
 pub(super) struct Ball {
@@ -134,12 +190,12 @@ pub(super) struct Ball {
     pub(super) ahead: f32,
 }
 
-impl Surface for Ball {
+impl<S: Simd> Surface<S> for Ball {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn at(&self, i: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
         let (s, d) = own.at.of(i);
-        let left = f32x4::splat(self.square) - d * d;
+        let left = self.square - d * d;
         let free = not_below_zero(left).sqrt() * self.ahead;
         // Of a whole ball it is never as much as its half.
         let free = if self.square > own.outer {
@@ -160,6 +216,13 @@ impl Surface for Ball {
     }
 }
 
+impl<S: Simd> Along<S> for Ball {
+    #[inline(always)]
+    fn on(self, at: Across) -> Ball {
+        Ball { own: Sloped { at, ..self.own }, ..self }
+    }
+}
+
 /// Round corners on a level way.
 #[derive(Clone, Copy)]
 pub(super) struct LevelRound {
@@ -167,9 +230,9 @@ pub(super) struct LevelRound {
     pub(super) round: Round,
 }
 
-impl Surface for LevelRound {
+impl<S: Simd> Surface<S> for LevelRound {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn at(&self, i: f32x8<S>) -> f32x8<S> {
         let (s, d) = self.own.at.of(i);
         let e = s - self.own.at.clamped(s);
         self.round.height(d * d + e * e) + self.own.floor
@@ -182,6 +245,13 @@ impl Surface for LevelRound {
     }
 }
 
+impl<S: Simd> Along<S> for LevelRound {
+    #[inline(always)]
+    fn on(self, at: Across) -> LevelRound {
+        LevelRound { own: Sloped { at, ..self.own }, ..self }
+    }
+}
+
 /// Round corners on a slope.
 #[derive(Clone, Copy)]
 pub(super) struct SlopedRound {
@@ -189,9 +259,9 @@ pub(super) struct SlopedRound {
     pub(super) round: Round,
 }
 
-impl Surface for SlopedRound {
+impl<S: Simd> Surface<S> for SlopedRound {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn at(&self, i: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
         let (s, d) = own.at.of(i);
         // Below the level part of the low end, and beyond it, none of the way is as low.
@@ -199,8 +269,8 @@ impl Surface for SlopedRound {
         let e = s - low;
         let square = d * d + e * e;
         let beyond = if own.rise < 0.0 { e } else { -e };
-        let inner = f32x4::splat(self.round.inner * self.round.inner);
-        if (beyond.cmp_ge(f32x4::ZERO) | square.cmp_le(inner)).all() {
+        let inner = self.round.inner * self.round.inner;
+        if (beyond.simd_ge(0.0) | square.simd_le(inner)).all_true() {
             return self.round.height(square) + own.bottom();
         }
         let t = own.at.clamped(s - self.round.touch(d, own.rise));
@@ -212,6 +282,13 @@ impl Surface for SlopedRound {
     fn least(&self, cells: usize) -> f32 {
         let d = self.own.at.nearest(cells);
         self.own.bottom() + self.round.least(d * d)
+    }
+}
+
+impl<S: Simd> Along<S> for SlopedRound {
+    #[inline(always)]
+    fn on(self, at: Across) -> SlopedRound {
+        SlopedRound { own: Sloped { at, ..self.own }, ..self }
     }
 }
 
@@ -229,16 +306,16 @@ pub(super) struct Cone {
     pub(super) sense: f32,
 }
 
-impl Surface for Cone {
+impl<S: Simd> Surface<S> for Cone {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn at(&self, i: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
         let (s, d) = own.at.of(i);
-        let (most, level) = (own.half(d), f32x4::splat(self.inner * self.inner) - d * d);
+        let (most, level) = (own.half(d), self.inner * self.inner - d * d);
         let free = d.abs() * self.ahead + most * self.beside;
         // Within the level part, its edge is the lowest.
         let edge = not_below_zero(level).sqrt() * self.sense;
-        let free = (free * free).cmp_lt(level).blend(edge, free);
+        let free = (free * free).simd_lt(level).select(edge, free);
         let t = own.at.clamped(s - between(free, -most, most));
         let e = s - t;
         t * own.rise + not_below_zero((d * d + e * e).sqrt() - self.inner) * self.slope + own.floor
@@ -251,8 +328,15 @@ impl Surface for Cone {
     }
 }
 
+impl<S: Simd> Along<S> for Cone {
+    #[inline(always)]
+    fn on(self, at: Across) -> Cone {
+        Cone { own: Sloped { at, ..self.own }, ..self }
+    }
+}
+
 /// Coordinates of the cells of a row along and across a line.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Across {
     pub(super) s: f32,
     pub(super) d: f32,
@@ -262,8 +346,19 @@ pub(super) struct Across {
 }
 
 impl Across {
+    /// The same of a cell so many rows and columns further.
     #[inline(always)]
-    pub(super) fn of(&self, i: f32x4) -> (f32x4, f32x4) {
+    pub(super) fn shifted(&self, row: usize, column: usize) -> Across {
+        let (row, column) = (row as i32 as f32, column as i32 as f32);
+        Across {
+            s: self.s - row * self.dd + column * self.ds,
+            d: self.d + row * self.ds + column * self.dd,
+            ..*self
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn of<S: Simd>(&self, i: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
         (i * self.ds + self.s, i * self.dd + self.d)
     }
 
@@ -278,19 +373,19 @@ impl Across {
     }
 
     #[inline(always)]
-    pub(super) fn clamped(&self, t: f32x4) -> f32x4 {
-        between(t, f32x4::ZERO, f32x4::splat(self.length))
+    pub(super) fn clamped<S: Simd>(&self, t: f32x8<S>) -> f32x8<S> {
+        t.max(0.0).min(self.length)
     }
 }
 
 #[inline(always)]
-pub(crate) fn between(value: f32x4, low: f32x4, high: f32x4) -> f32x4 {
-    value.fast_max(low).fast_min(high)
+pub(crate) fn between<S: Simd>(value: f32x8<S>, low: f32x8<S>, high: f32x8<S>) -> f32x8<S> {
+    value.max(low).min(high)
 }
 
 #[inline(always)]
-pub(crate) fn not_below_zero(value: f32x4) -> f32x4 {
-    value.fast_max(f32x4::ZERO)
+pub(crate) fn not_below_zero<S: Simd>(value: f32x8<S>) -> f32x8<S> {
+    value.max(0.0)
 }
 
 /// Round corners of a tool that is flat within.
@@ -303,16 +398,16 @@ pub(super) struct Round {
 
 impl Round {
     #[inline(always)]
-    pub(super) fn height(&self, square: f32x4) -> f32x4 {
+    pub(super) fn height<S: Simd>(&self, square: f32x8<S>) -> f32x8<S> {
         let beyond = not_below_zero(square.sqrt() - self.inner);
-        let all = f32x4::splat(self.radius * self.radius);
-        f32x4::splat(self.radius) - not_below_zero(all - beyond * beyond).sqrt()
+        self.radius - not_below_zero(self.radius * self.radius - beyond * beyond).sqrt()
     }
 
     /// The height at a distance, which is given as its square.
     #[inline(always)]
     pub(super) fn least(&self, square: f32) -> f32 {
-        self.height(f32x4::splat(square)).to_array()[0]
+        let beyond = (square.sqrt() - self.inner).max(0.0);
+        self.radius - (self.radius * self.radius - beyond * beyond).max(0.0).sqrt()
     }
 
     /// How far the tip is from the foot of a cell where the tool, which rises, comes lowest over it. There
@@ -321,20 +416,19 @@ impl Round {
     /// q / √(ρ² − q²) · √(r² − d²) / r = m,   r = inner + q
     /// ```
     #[inline(always)]
-    pub(super) fn touch(&self, d: f32x4, rise: f32) -> f32x4 {
-        let (d2, m2, p2) = (d * d, f32x4::splat(rise * rise), f32x4::splat(self.radius * self.radius));
-        let inner = f32x4::splat(self.inner);
-        let mut low = not_below_zero(d.abs() - inner);
-        let mut high = f32x4::splat(self.outer - self.inner);
+    pub(super) fn touch<S: Simd>(&self, d: f32x8<S>, rise: f32) -> f32x8<S> {
+        let (d2, m2, p2) = (d * d, rise * rise, self.radius * self.radius);
+        let mut low = not_below_zero(d.abs() - self.inner);
+        let mut high = f32x8::splat(d.simd, self.outer - self.inner);
         for _ in 0..HALVINGS {
             let q = (low + high) * 0.5;
-            let (r, q2) = (inner + q, q * q);
+            let (r, q2) = (q + self.inner, q * q);
             let r2 = r * r;
-            let beyond = (q2 * (r2 - d2)).cmp_gt(m2 * r2 * (p2 - q2));
-            high = beyond.blend(q, high);
-            low = beyond.blend(low, q);
+            let beyond = (q2 * (r2 - d2)).simd_gt(r2 * m2 * (p2 - q2));
+            high = beyond.select(q, high);
+            low = beyond.select(low, q);
         }
-        let r = inner + (low + high) * 0.5;
+        let r = (low + high) * 0.5 + self.inner;
         not_below_zero(r * r - d2).sqrt() * if rise < 0.0 { -1.0 } else { 1.0 }
     }
 }

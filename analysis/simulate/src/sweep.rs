@@ -12,12 +12,14 @@
 
 use std::ops::Range;
 
+use fearless_simd::{Simd, dispatch};
+
 use crate::band::{Band, Form};
 use crate::level_arc::{WIDEST, level_arc};
 use crate::moves::Way;
 use crate::rows::Rows;
 use crate::surface::{
-    Across, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Sloped, SlopedRound, Surface, Within,
+    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Sloped, SlopedRound, Within, level,
 };
 use crate::tool::Cutter;
 
@@ -97,7 +99,7 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], 
     for i in 0..pieces {
         let line = Line::new([point(i), point(i + 1)], continues || i > 0);
         for band in cutter.bands() {
-            line.sweep(cells, band);
+            dispatch!(level(), simd => line.sweep(simd, cells, band));
         }
     }
 }
@@ -142,27 +144,28 @@ impl Line {
     }
 
     /// The surface that a band leaves.
-    fn sweep(&self, cells: &mut impl Cells, band: &Band) {
+    #[inline(always)]
+    fn sweep<S: Simd>(&self, simd: S, cells: &mut impl Cells, band: &Band) {
         let floor = (self.from[2] + band.base) as f32;
         let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
-        let own = |at| Sloped { at, floor, rise, outer };
+        let own = Sloped { at: Across::default(), floor, rise, outer };
         // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
         let done = (self.continues && rise >= 0.0).then_some(0.0);
         match band.form {
-            Form::Flat if rise == 0.0 => self.rows(cells, band, done, |_| Level(floor)),
-            Form::Flat => self.rows(cells, band, done, |at| Flat(own(at))),
+            Form::Flat if rise == 0.0 => self.rows(simd, cells, band, done, Level(floor)),
+            Form::Flat => self.rows(simd, cells, band, done, Flat(own)),
             Form::Round(radius) if band.inner == 0.0 => {
                 let ahead = rise / (1.0 + rise * rise).sqrt();
                 let (radius, square) = (radius as f32, (radius * radius) as f32);
                 // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
                 let done = self.continues.then_some(radius * ahead.min(0.0));
-                self.rows(cells, band, done, |at| Ball { own: own(at), radius, square, ahead });
+                self.rows(simd, cells, band, done, Ball { own, radius, square, ahead });
             }
             Form::Round(radius) => {
                 let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
                 match rise == 0.0 {
-                    true => self.rows(cells, band, done, |at| LevelRound { own: own(at), round }),
-                    false => self.rows(cells, band, done, |at| SlopedRound { own: own(at), round }),
+                    true => self.rows(simd, cells, band, done, LevelRound { own, round }),
+                    false => self.rows(simd, cells, band, done, SlopedRound { own, round }),
                 }
             }
             Form::Cone(slope) => {
@@ -171,77 +174,79 @@ impl Line {
                 let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
                 let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
                 let beside = if steep { sense } else { 0.0 };
-                let cone = |at| Cone { own: own(at), slope, inner, ahead, beside, sense };
-                self.rows(cells, band, done, cone);
+                self.rows(simd, cells, band, done, Cone { own, slope, inner, ahead, beside, sense });
             }
         }
     }
 
     /// Goes over the rows that a band touches. `done`: cells up to so far along the line are cut already.
     #[inline(always)]
-    fn rows<W: Surface>(
+    fn rows<S: Simd>(
         &self,
+        simd: S,
         cells: &mut impl Cells,
         band: &Band,
         done: Option<f32>,
-        way: impl Fn(Across) -> W,
+        along: impl Along<S>,
     ) {
         let grid = cells.grid();
         let radius = band.outer;
-        let [columns, rows] = [0, 1].map(|axis| {
+        let reach = |axis: usize| {
             let [one, other] = [self.from[axis], self.to[axis]];
             grid.between(axis, least(one, other) - radius, most(one, other) + radius)
-        });
+        };
+        let (columns, rows) = (reach(0), reach(1));
         if columns.is_empty() || rows.is_empty() {
             return;
         }
         let narrow = columns.len() <= NARROW;
         let columns = if narrow { whole_groups(columns, grid.cells[0]) } else { columns };
-        cells.reaches(&rows, &columns);
+        let mut sums = cells.begin(simd, &rows, &columns);
         let cell = grid.cell as f32;
         let first =
-            [(0, columns.start), (1, rows.start)].map(|(axis, n)| grid.centre(axis, n) - self.from[axis]);
+            [grid.centre(0, columns.start) - self.from[0], grid.centre(1, rows.start) - self.from[1]];
         let [ux, uy] = self.along;
-        // Of the first cell of a row, and by how much it grows from row to row.
+        // Of the first cell; `ds` and `dd` are the steps from column to column, and with them those from row to row.
         let (s, d) = ((first[0] * ux + first[1] * uy) as f32, (first[1] * ux - first[0] * uy) as f32);
-        let (ds, dd, length) = (cell * ux as f32, -cell * uy as f32, self.length as f32);
-        let across = |row: usize, column: usize| {
-            let (row, column) = (row as i32 as f32, column as i32 as f32);
-            Across { s: s - row * dd + column * ds, d: d + row * ds + column * dd, ds, dd, length }
-        };
-        let outer = (radius * radius) as f32;
+        let origin =
+            Across { s, d, ds: cell * ux as f32, dd: -cell * uy as f32, length: self.length as f32 };
         if narrow {
+            let outer = (radius * radius) as f32;
             // Asking of each cell is less work than asking where the cells of each row begin.
             for row in 0..rows.len() {
-                let at = across(row, 0);
-                cells.row(rows.start + row, columns.clone(), Within { way: way(at), at, outer });
+                let at = origin.shifted(row, 0);
+                let within = Within { along: along.on(at), at, outer };
+                sums = cells.row(sums, simd, rows.start + row, columns.clone(), within);
             }
+            cells.end(sums);
             return;
         }
         let touched = Rows {
-            end: [0, 1].map(|axis| (self.to[axis] - self.from[axis]) as f32),
-            along: self.along.map(|part| part as f32),
-            length,
+            end: [(self.to[0] - self.from[0]) as f32, (self.to[1] - self.from[1]) as f32],
+            along: [ux as f32, uy as f32],
+            length: origin.length,
             radius: radius as f32,
-            first: first.map(|at| at as f32),
+            first: [first[0] as f32, first[1] as f32],
             cell,
             columns: columns.len(),
         };
-        for four in (0..rows.len()).step_by(LANES) {
-            let all = touched.touched(four, done);
-            for (lane, row) in (four..rows.len().min(four + LANES)).enumerate() {
+        for group in (0..rows.len()).step_by(LANES) {
+            let all = touched.touched(simd, group, done);
+            for (lane, row) in (group..rows.len().min(group + LANES)).enumerate() {
                 let of = all.of(lane);
                 if !of.is_empty() {
-                    let surface = way(across(row, of.start));
-                    cells.row(rows.start + row, columns.start + of.start..columns.start + of.end, surface);
+                    let surface = along.on(origin.shifted(row, of.start));
+                    let columns = columns.start + of.start..columns.start + of.end;
+                    sums = cells.row(sums, simd, rows.start + row, columns, surface);
                 }
             }
         }
+        cells.end(sums);
     }
 }
 
 /// A box around a line with so few columns is worked on as a whole.
-const NARROW: usize = 12;
+const NARROW: usize = 2 * LANES;
 
 /// Some more columns, so that none of them is left where they are worked on in groups.
 fn whole_groups(columns: Range<usize>, all: usize) -> Range<usize> {

@@ -5,11 +5,11 @@
 
 use std::ops::Range;
 
-use wide::f32x4;
+use fearless_simd::Simd;
 
 use crate::map::Grid;
 use crate::moves::Way;
-use crate::surface::{COUNT, Cells, LANES, Surface};
+use crate::surface::{Cells, LANES, Surface, indices};
 use crate::sweep::{chords, sweep};
 use crate::tool::Cutter;
 
@@ -66,7 +66,9 @@ impl Cells for Lowest {
         self.grid
     }
 
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
+    type Sums<S: Simd> = ();
+
+    fn begin<S: Simd>(&mut self, _simd: S, rows: &Range<usize>, columns: &Range<usize>) {
         let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
             true => other.clone(),
             false => own.start.min(other.start)..own.end.max(other.end),
@@ -84,14 +86,23 @@ impl Cells for Lowest {
         (self.rows, self.columns, self.heights) = (rows, columns, heights);
     }
 
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
+    fn row<S: Simd, W: Surface<S>>(
+        &mut self,
+        _sums: (),
+        simd: S,
+        row: usize,
+        columns: Range<usize>,
+        surface: W,
+    ) {
         let start = (row - self.rows.start) * self.columns.len();
         for first in columns.clone().step_by(LANES) {
-            let new = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
+            let new: [f32; LANES] = surface.at(indices(simd, first - columns.start)).into();
             for (column, new) in (first..columns.end).zip(new) {
                 let own = &mut self.heights[start + column - self.columns.start];
                 *own = own.min(new);
             }
         }
     }
+
+    fn end<S: Simd>(&mut self, _sums: ()) {}
 }
