@@ -65,6 +65,10 @@ pub struct Simulation {
     history: History,
     /// How many moves the map shows.
     shown: usize,
+    /// The number of moves at which the history keeps the map next.
+    next_stride: usize,
+    /// Whether there are fixtures or a table.
+    has_obstacles: bool,
 }
 
 impl Simulation {
@@ -91,6 +95,8 @@ impl Simulation {
             removed: Vec::new(),
             alarms: Vec::new(),
             shown: 0,
+            next_stride: STRIDE,
+            has_obstacles: !setup.fixtures.is_empty() || setup.table.is_some(),
             setup,
             map,
         }
@@ -143,29 +149,37 @@ impl Simulation {
     pub fn push(&mut self, own: Move) {
         assert!(own.tool < self.setup.tools.len(), "a move with a tool that is not set up");
         assert!(usize::from(own.tilt) <= self.setup.tilts.len(), "a move on a plane that is not set up");
-        self.seek(self.moves.len());
-        let from = self.before(self.moves.len());
-        if own.way != Way::Away {
-            self.look(from, &own);
+        let count = self.moves.len();
+        self.seek(count);
+        let from = self.before(count);
+        let low = lowest(from, &own);
+        if own.way == Way::Rapid || self.has_obstacles {
+            self.look(from, &own, low);
         }
-        let removed = self.cut(from, &own, self.moves.len());
+        let cut = self.cut(from, &own, count, low);
         self.moves.push(own);
-        self.removed.push(removed.removed);
-        self.shown = self.moves.len();
-        if own.way != Way::Away {
-            self.judge(&own, &removed);
+        self.removed.push(cut.removed);
+        self.shown = count + 1;
+        if !matches!(own.way, Way::Away) {
+            self.judge(from, &own, &cut);
         }
-        if self.moves.len().is_multiple_of(STRIDE) {
+        if self.shown == self.next_stride {
+            self.next_stride += STRIDE;
             self.history.keep(&self.map);
         }
     }
 
     /// Shows the part after so many moves, or after all of them where there are fewer.
+    #[inline]
     pub fn seek(&mut self, moves: usize) {
         let moves = moves.min(self.moves.len());
-        if moves == self.shown {
-            return;
+        if moves != self.shown {
+            self.show(moves);
         }
+    }
+
+    #[cold]
+    fn show(&mut self, moves: usize) {
         let stride = (moves / STRIDE).min(self.history.len());
         // What has been made of a stride is gone on with.
         if !(stride == self.history.at() && moves > self.shown) {
@@ -174,32 +188,39 @@ impl Simulation {
         }
         while self.shown < moves {
             let (from, own) = (self.before(self.shown), self.moves[self.shown]);
-            self.cut(from, &own, self.shown);
+            self.cut(from, &own, self.shown, lowest(from, &own));
             self.shown += 1;
         }
     }
 
-    /// Cuts; `number` counts from 0.
-    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
+    /// Cuts; `number` counts from 0, `low` is the least Z.
+    #[inline]
+    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize, low: f64) -> Cut {
         if own.tilt != 0 {
             return self.cut_leaning(from, own, number);
         }
         let tool = &self.setup.tools[own.tool];
-        if lowest(from, own) >= f64::from(self.highest) {
+        if low >= f64::from(self.highest) {
             return Cut::default();
         }
         if tool.cutter.upper().is_some() {
-            let (grid, to) = (self.map.grid, own.end);
-            let cut = cut_between(&mut self.map, number as u32 + 1, |shown| {
-                through(grid, &tool.cutter, from, to, &own.way, shown);
-            });
-            self.history.touch(&cut.columns, &cut.rows);
-            return cut;
+            return self.cut_under(from, own, number);
         }
         let before = number.checked_sub(1).map(|before| &self.moves[before]);
         let continues = before.is_some_and(|before| before.tool == own.tool && before.way != Way::Away);
         let number = number as u32 + 1;
         let cut = lower(&mut self.map, number, &tool.cutter, [from, own.end], &own.way, continues);
+        self.history.touch(&cut.columns, &cut.rows);
+        cut
+    }
+
+    /// The same with a tool that cuts under what stays.
+    #[cold]
+    fn cut_under(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
+        let (cutter, grid) = (&self.setup.tools[own.tool].cutter, self.map.grid);
+        let cut = cut_between(&mut self.map, number as u32 + 1, |shown| {
+            through(grid, cutter, from, own.end, &own.way, shown);
+        });
         self.history.touch(&cut.columns, &cut.rows);
         cut
     }
@@ -249,13 +270,16 @@ impl Simulation {
         }
     }
 
-    /// What must be asked before a move cuts: what is in its way.
-    fn look(&mut self, from: [f64; 3], own: &Move) {
+    /// What must be asked before a move cuts: what is in its way. `low` is its least Z.
+    #[cold]
+    fn look(&mut self, from: [f64; 3], own: &Move, low: f64) {
+        if matches!(own.way, Way::Away) {
+            return;
+        }
         if own.tilt != 0 {
             return self.look_leaning(from, own);
         }
         let body = &self.bodies[own.tool];
-        let low = lowest(from, own);
         let mut found = Vec::new();
         if own.way == Way::Rapid && low < f64::from(self.highest) {
             let hit = match body.cutter.upper() {
@@ -282,9 +306,23 @@ impl Simulation {
     }
 
     /// What is known of a move when it has cut.
-    fn judge(&mut self, own: &Move, cut: &Cut) {
+    #[inline]
+    fn judge(&mut self, from: [f64; 3], own: &Move, cut: &Cut) {
+        let is_without_flute = self.setup.tools[own.tool].flute.is_none();
+        if cut.removed.depth > TOUCH && !(own.turns && is_without_flute) {
+            self.judge_depth(own, cut);
+        }
+        let body = &self.bodies[own.tool];
+        if own.tilt != 0 || body.shank.is_some() || body.holder.is_some() {
+            for (kind, hit) in self.above_the_cut(from, own) {
+                self.alarm(kind, own, self.moves.len() as u32, hit);
+            }
+        }
+    }
+
+    /// Whether a move may cut, and so deep.
+    fn judge_depth(&mut self, own: &Move, cut: &Cut) {
         let number = self.moves.len() as u32;
-        let from = self.before(self.moves.len() - 1);
         let depth = cut.removed.depth;
         let is_on_neck = self.bodies[own.tool].cutter.upper().is_some();
         // What a tool on a neck takes is never longer than it is.
@@ -297,13 +335,6 @@ impl Simulation {
         for (kind, depth) in faults.into_iter().filter(|(_, depth)| *depth > TOUCH) {
             let place = self.where_cut(number, cut).unwrap_or(own.end);
             self.alarm(kind, own, number, Hit { place, depth });
-        }
-        let body = &self.bodies[own.tool];
-        if own.tilt == 0 && body.shank.is_none() && body.holder.is_none() {
-            return;
-        }
-        for (kind, hit) in self.above_the_cut(from, own) {
-            self.alarm(kind, own, number, hit);
         }
     }
 
@@ -368,15 +399,16 @@ impl Simulation {
     }
 }
 
-/// The least Z of a move.
+/// The least Z of a move; endless where it cuts nothing.
+#[inline]
 fn lowest(from: [f64; 3], own: &Move) -> f64 {
-    let ends = from[2].min(own.end[2]);
+    let ends = if from[2] < own.end[2] { from[2] } else { own.end[2] };
     match own.way {
+        Way::Away => f64::INFINITY,
         // An arc in another plane may go below both of its ends.
         Way::Arc { plane, centre, sweep } if plane[2] != 2 => {
             chords(from, own.end, plane.map(usize::from), centre, sweep).map(|at| at[2]).fold(ends, f64::min)
         }
-        Way::Away => f64::INFINITY,
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
     }
 }

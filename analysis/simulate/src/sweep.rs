@@ -88,19 +88,26 @@ pub(crate) fn chords(
     })
 }
 
+#[inline]
 fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], continues: bool) {
-    let pieces = (distance([from[0], from[1]], [to[0], to[1]]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
-    let point = |i: usize| match i == pieces {
-        true => to,
-        false => {
-            std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * (i as f64 / pieces as f64))
-        }
-    };
-    for i in 0..pieces {
-        let line = Line::new([point(i), point(i + 1)], continues || i > 0);
-        for band in cutter.bands() {
-            dispatch!(level(), simd => line.sweep(simd, cells, band));
-        }
+    let length = distance([from[0], from[1]], [to[0], to[1]]);
+    if length <= PIECE {
+        return piece(cells, cutter, [from, to], length, continues);
+    }
+    let pieces = (length / PIECE).ceil().min(1e6);
+    let mut last = from;
+    for i in 1..=pieces as usize {
+        let part = i as f64 / pieces;
+        let end = if part < 1.0 { [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part) } else { to };
+        piece(cells, cutter, [last, end], length / pieces, continues || i > 1);
+        last = end;
+    }
+}
+
+fn piece(cells: &mut impl Cells, cutter: &Cutter, ends: [[f64; 3]; 2], length: f64, continues: bool) {
+    let line = Line::new(ends, length, continues);
+    for band in cutter.bands() {
+        dispatch!(level(), simd => line.sweep(simd, cells, band));
     }
 }
 
@@ -124,9 +131,8 @@ struct Line {
 }
 
 impl Line {
-    fn new([from, to]: [[f64; 3]; 2], continues: bool) -> Line {
+    fn new([from, to]: [[f64; 3]; 2], length: f64, continues: bool) -> Line {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
-        let length = distance([from[0], from[1]], [to[0], to[1]]);
         if length < 1e-9 {
             // Straight down or up: what counts is the lower end.
             let low = [from[0], from[1], from[2].min(to[2])];
