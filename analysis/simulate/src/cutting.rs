@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8, u32x8};
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f32x8, u32x8};
 
 use crate::cut::{Cut, Hit, TOUCH, take};
 use crate::map::{Grid, HeightMap};
 use crate::moves::{Move, Way};
-use crate::surface::{Cells, LANES, Surface, endless, indices};
+use crate::surface::{Across, Along, Cells, LANES, Row, Surface, endless, indices};
 use crate::sweep::sweep;
 use crate::tool::Cutter;
 
@@ -45,7 +45,7 @@ impl Cutting<'_> {
         simd: S,
         row: usize,
         columns: Range<usize>,
-        surface: impl Surface<S>,
+        surface: impl Surface,
     ) {
         let start = row * self.map.grid.cells[0];
         for first in columns.clone().step_by(LANES) {
@@ -61,7 +61,7 @@ impl Cutting<'_> {
     /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
     #[cold]
     #[inline(never)]
-    fn last_row<S: Simd>(&mut self, simd: S, begin: usize, count: usize, surface: impl Surface<S>) {
+    fn last_row<S: Simd>(&mut self, simd: S, begin: usize, count: usize, surface: impl Surface) {
         let (heights, last) =
             (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
         let mut sums = Sums::new(simd);
@@ -120,7 +120,7 @@ impl Cells for Cutting<'_> {
     }
 
     #[inline(always)]
-    fn row<S: Simd, W: Surface<S>>(
+    fn row<S: Simd, W: Surface>(
         &mut self,
         mut sums: Sums<S>,
         simd: S,
@@ -152,6 +152,46 @@ impl Cells for Cutting<'_> {
                 }
             }
             at += LANES as f32;
+        }
+        sums
+    }
+
+    #[inline(always)]
+    fn narrow<S: Simd, W: Along>(
+        &mut self,
+        mut sums: Sums<S>,
+        simd: S,
+        [rows, columns]: [Range<usize>; 2],
+        at: Across,
+        along: W,
+    ) -> Sums<S> {
+        let width = self.map.grid.cells[0];
+        if !self.map.hollows.is_empty() || !columns.len().is_multiple_of(LANES) {
+            for row in rows.clone() {
+                let surface = Row { at: at.shifted(row - rows.start, 0), along };
+                sums = self.row(sums, simd, row, columns.clone(), surface);
+            }
+            return sums;
+        }
+        let least = along.least(0.0);
+        for first in columns.clone().step_by(LANES) {
+            let (s, d) = at.of(indices(simd, first - columns.start));
+            let mut row = f32x8::splat(simd, 0.0);
+            let whole = rows.start * width + first..(rows.end - 1) * width + first + LANES;
+            let heights = self.map.heights[whole.clone()].chunks_mut(width);
+            for (heights, last) in heights.zip(self.map.last[whole].chunks_mut(width)) {
+                let (Some(heights), Some(last)) = (heights.first_chunk_mut(), last.first_chunk_mut()) else {
+                    break;
+                };
+                let old = f32x8::simd_from(simd, *heights);
+                if W::IS_CHEAP || old.simd_gt(least).any_true() {
+                    let new = along.over(s - row * at.dd, d + row * at.ds);
+                    if new.simd_lt(old).any_true() {
+                        sums.lower(heights, last, new, self.number);
+                    }
+                }
+                row += 1.0;
+            }
         }
         sums
     }
@@ -191,7 +231,7 @@ impl Cells for Probing<'_> {
 
     fn begin<S: Simd>(&mut self, _simd: S, _rows: &Range<usize>, _columns: &Range<usize>) {}
 
-    fn row<S: Simd, W: Surface<S>>(
+    fn row<S: Simd, W: Surface>(
         &mut self,
         _sums: (),
         simd: S,

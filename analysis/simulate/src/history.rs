@@ -17,6 +17,7 @@ const GROUP: usize = 16;
 
 /// Whether any of these moves is after another, and whether all are. Moves are below 2³¹, so that the sign of a difference
 /// tells which is less.
+#[inline(always)]
 fn after(moves: &[u32], before: u32) -> [bool; 2] {
     let [mut any, mut all] = [0, u32::MAX];
     for own in moves {
@@ -52,7 +53,13 @@ impl Changes {
         }
         for first in cells.clone().step_by(GROUP) {
             let group = first..cells.end.min(first + GROUP);
-            match after(&map.last[group.clone()], before) {
+            let moves = &map.last[group.clone()];
+            // Code for a known number of cells takes half the time.
+            let is_after = match moves.first_chunk::<GROUP>() {
+                Some(whole) => after(whole, before),
+                None => after(moves, before),
+            };
+            match is_after {
                 [false, _] => {}
                 [true, true] => self.add_run(group),
                 [true, false] => self.add_group(map, group, before),

@@ -75,9 +75,9 @@ struct Ring<'r> {
     cell: f32,
 }
 
-impl<S: Simd> Surface<S> for Ring<'_> {
+impl Surface for Ring<'_> {
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
+    fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S> {
         let distance = self.sector.distance([i * self.cell + self.x, f32x8::splat(i.simd, self.y)]);
         let (base, inner) = ((self.band.base as f32) + self.floor, self.band.inner as f32);
         let beyond = not_below_zero(distance - inner);

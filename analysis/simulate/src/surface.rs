@@ -45,7 +45,7 @@ pub(crate) trait Cells {
     fn begin<S: Simd>(&mut self, simd: S, rows: &Range<usize>, columns: &Range<usize>) -> Self::Sums<S>;
 
     /// The surface over some cells of a row.
-    fn row<S: Simd, W: Surface<S>>(
+    fn row<S: Simd, W: Surface>(
         &mut self,
         sums: Self::Sums<S>,
         simd: S,
@@ -54,32 +54,103 @@ pub(crate) trait Cells {
         surface: W,
     ) -> Self::Sums<S>;
 
+    /// The surface along a line over all cells of a box; `at` is that of its first cell.
+    #[inline(always)]
+    fn narrow<S: Simd, W: Along>(
+        &mut self,
+        mut sums: Self::Sums<S>,
+        simd: S,
+        [rows, columns]: [Range<usize>; 2],
+        at: Across,
+        along: W,
+    ) -> Self::Sums<S> {
+        for row in rows.clone() {
+            let surface = Row { at: at.shifted(row - rows.start, 0), along };
+            sums = self.row(sums, simd, row, columns.clone(), surface);
+        }
+        sums
+    }
+
     /// Ends a box.
     fn end<S: Simd>(&mut self, sums: Self::Sums<S>);
 }
 
 /// A surface over cells of a row. No closure: a closure is no part of the code compiled for an instruction set.
-pub(crate) trait Surface<S: Simd>: Copy {
+pub(crate) trait Surface: Copy {
     /// Whether [`Surface::at`] costs no more than the test whether it is needed.
     const IS_CHEAP: bool = false;
 
     /// Its heights over eight cells, counted from the first one of these; an infinite one is no surface.
-    fn at(&self, i: f32x8<S>) -> f32x8<S>;
+    fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S>;
 
     /// A height that it does not go below over the first so many cells.
     fn least(&self, cells: usize) -> f32;
 }
 
-/// A surface along a line.
-pub(super) trait Along<S: Simd>: Surface<S> {
-    /// The same surface over the cells of another row.
-    fn on(self, at: Across) -> Self;
+/// A surface along a line, where the tool comes.
+pub(crate) trait Along: Copy {
+    /// As [`Surface::IS_CHEAP`].
+    const IS_CHEAP: bool = false;
+
+    /// Its heights over cells so far along the line and across it.
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S>;
+
+    /// A height that it does not go below at this distance from the line or farther.
+    fn least(&self, nearest: f32) -> f32;
+}
+
+/// A surface along a line, over cells of a row.
+#[derive(Clone, Copy)]
+pub(crate) struct Row<W> {
+    pub(crate) at: Across,
+    pub(crate) along: W,
+}
+
+impl<W: Along> Surface for Row<W> {
+    const IS_CHEAP: bool = W::IS_CHEAP;
+
+    #[inline(always)]
+    fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S> {
+        let (s, d) = self.at.of(i);
+        self.along.over(s, d)
+    }
+
+    #[inline(always)]
+    fn least(&self, cells: usize) -> f32 {
+        self.along.least(self.at.nearest(cells))
+    }
+}
+
+/// A surface along a line, and endless beyond the radius of the tool.
+#[derive(Clone, Copy)]
+pub(super) struct Within<W> {
+    pub(super) along: W,
+    /// Length of the line.
+    pub(super) length: f32,
+    /// Square of the radius.
+    pub(super) outer: f32,
+}
+
+impl<W: Along> Along for Within<W> {
+    const IS_CHEAP: bool = W::IS_CHEAP;
+
+    #[inline(always)]
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
+        let e = s - s.max(0.0).min(self.length);
+        (d * d + e * e).simd_le(self.outer).select(self.along.over(s, d), endless(s.simd))
+    }
+
+    #[inline(always)]
+    fn least(&self, nearest: f32) -> f32 {
+        self.along.least(nearest)
+    }
 }
 
 /// The values that all surfaces along a line share.
 #[derive(Clone, Copy)]
 pub(super) struct Sloped {
-    pub(super) at: Across,
+    /// Length of the line.
+    pub(super) length: f32,
     /// Height of the band's lowest point at the start, mm.
     pub(super) floor: f32,
     /// By how much that rises, a mm.
@@ -92,7 +163,7 @@ impl Sloped {
     /// The band's lowest point anywhere on the way.
     #[inline(always)]
     pub(super) fn bottom(&self) -> f32 {
-        self.floor + (self.rise * self.at.length).min(0.0)
+        self.floor + (self.rise * self.length).min(0.0)
     }
 
     /// How far along the way the band touches what is so far from it.
@@ -100,31 +171,17 @@ impl Sloped {
     pub(super) fn half<S: Simd>(&self, d: f32x8<S>) -> f32x8<S> {
         not_below_zero(self.outer - d * d).sqrt()
     }
-}
 
-/// A surface along a line, where a tool of that radius comes.
-#[derive(Clone, Copy)]
-pub(super) struct Within<W> {
-    pub(super) along: W,
-    pub(super) at: Across,
-    /// Square of the radius.
-    pub(super) outer: f32,
-}
-
-impl<S: Simd, W: Surface<S>> Surface<S> for Within<W> {
-    const IS_CHEAP: bool = W::IS_CHEAP;
-
+    /// The place of the line next to this one.
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
-        let (s, d) = self.at.of(i);
-        let e = s - self.at.clamped(s);
-        let inside = (d * d + e * e).simd_le(self.outer);
-        inside.select(self.along.at(i), endless(i.simd))
+    fn clamped<S: Simd>(&self, t: f32x8<S>) -> f32x8<S> {
+        t.max(0.0).min(self.length)
     }
 
+    /// How far a cell is beyond the low end of the line: below zero on the line.
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        self.along.least(cells)
+    fn beyond<S: Simd>(&self, s: f32x8<S>) -> f32x8<S> {
+        if self.rise < 0.0 { s - self.length } else { -s }
     }
 }
 
@@ -132,24 +189,17 @@ impl<S: Simd, W: Surface<S>> Surface<S> for Within<W> {
 #[derive(Clone, Copy)]
 pub(super) struct Level(pub(super) f32);
 
-impl<S: Simd> Surface<S> for Level {
+impl Along for Level {
     const IS_CHEAP: bool = true;
 
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
-        f32x8::splat(i.simd, self.0)
+    fn over<S: Simd>(&self, s: f32x8<S>, _d: f32x8<S>) -> f32x8<S> {
+        f32x8::splat(s.simd, self.0)
     }
 
     #[inline(always)]
-    fn least(&self, _cells: usize) -> f32 {
+    fn least(&self, _nearest: f32) -> f32 {
         self.0
-    }
-}
-
-impl<S: Simd> Along<S> for Level {
-    #[inline(always)]
-    fn on(self, _at: Across) -> Level {
-        self
     }
 }
 
@@ -157,26 +207,38 @@ impl<S: Simd> Along<S> for Level {
 #[derive(Clone, Copy)]
 pub(super) struct Flat(pub(super) Sloped);
 
-impl<S: Simd> Surface<S> for Flat {
+impl Along for Flat {
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.0;
-        let (s, d) = own.at.of(i);
         let half = own.half(d);
         let half = if own.rise < 0.0 { half } else { -half };
-        own.at.clamped(s + half) * own.rise + own.floor
+        own.clamped(s + half) * own.rise + own.floor
     }
 
     #[inline(always)]
-    fn least(&self, _cells: usize) -> f32 {
+    fn least(&self, _nearest: f32) -> f32 {
         self.0.bottom()
     }
 }
 
-impl<S: Simd> Along<S> for Flat {
+/// The same of a wide tool on a short way: most cells are below its low end.
+#[derive(Clone, Copy)]
+pub(super) struct WideFlat(pub(super) Sloped);
+
+impl Along for WideFlat {
     #[inline(always)]
-    fn on(self, at: Across) -> Flat {
-        Flat(Sloped { at, ..self.0 })
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
+        let e = self.0.beyond(s);
+        if (d * d + e * e).simd_le(self.0.outer).all_true() {
+            return f32x8::splat(s.simd, self.0.bottom());
+        }
+        Flat(self.0).over(s, d)
+    }
+
+    #[inline(always)]
+    fn least(&self, _nearest: f32) -> f32 {
+        self.0.bottom()
     }
 }
 
@@ -190,11 +252,10 @@ pub(super) struct Ball {
     pub(super) ahead: f32,
 }
 
-impl<S: Simd> Surface<S> for Ball {
+impl Along for Ball {
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
-        let (s, d) = own.at.of(i);
         let left = self.square - d * d;
         let free = not_below_zero(left).sqrt() * self.ahead;
         // Of a whole ball it is never as much as its half.
@@ -204,22 +265,14 @@ impl<S: Simd> Surface<S> for Ball {
         } else {
             free
         };
-        let t = own.at.clamped(s - free);
+        let t = own.clamped(s - free);
         let e = s - t;
         t * own.rise + (own.floor + self.radius) - not_below_zero(left - e * e).sqrt()
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let d = self.own.at.nearest(cells);
-        self.own.bottom() + self.radius - (self.square - d * d).max(0.0).sqrt()
-    }
-}
-
-impl<S: Simd> Along<S> for Ball {
-    #[inline(always)]
-    fn on(self, at: Across) -> Ball {
-        Ball { own: Sloped { at, ..self.own }, ..self }
+    fn least(&self, nearest: f32) -> f32 {
+        self.own.bottom() + self.radius - (self.square - nearest * nearest).max(0.0).sqrt()
     }
 }
 
@@ -230,25 +283,16 @@ pub(super) struct LevelRound {
     pub(super) round: Round,
 }
 
-impl<S: Simd> Surface<S> for LevelRound {
+impl Along for LevelRound {
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
-        let (s, d) = self.own.at.of(i);
-        let e = s - self.own.at.clamped(s);
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
+        let e = s - self.own.clamped(s);
         self.round.height(d * d + e * e) + self.own.floor
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let d = self.own.at.nearest(cells);
-        self.own.bottom() + self.round.least(d * d)
-    }
-}
-
-impl<S: Simd> Along<S> for LevelRound {
-    #[inline(always)]
-    fn on(self, at: Across) -> LevelRound {
-        LevelRound { own: Sloped { at, ..self.own }, ..self }
+    fn least(&self, nearest: f32) -> f32 {
+        self.own.bottom() + self.round.least(nearest * nearest)
     }
 }
 
@@ -259,36 +303,25 @@ pub(super) struct SlopedRound {
     pub(super) round: Round,
 }
 
-impl<S: Simd> Surface<S> for SlopedRound {
+impl Along for SlopedRound {
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
-        let (s, d) = own.at.of(i);
         // Below the level part of the low end, and beyond it, none of the way is as low.
-        let low = if own.rise < 0.0 { own.at.length } else { 0.0 };
-        let e = s - low;
-        let square = d * d + e * e;
-        let beyond = if own.rise < 0.0 { e } else { -e };
+        let beyond = own.beyond(s);
+        let square = d * d + beyond * beyond;
         let inner = self.round.inner * self.round.inner;
         if (beyond.simd_ge(0.0) | square.simd_le(inner)).all_true() {
             return self.round.height(square) + own.bottom();
         }
-        let t = own.at.clamped(s - self.round.touch(d, own.rise));
+        let t = own.clamped(s - self.round.touch(d, own.rise));
         let e = s - t;
         t * own.rise + self.round.height(d * d + e * e) + own.floor
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let d = self.own.at.nearest(cells);
-        self.own.bottom() + self.round.least(d * d)
-    }
-}
-
-impl<S: Simd> Along<S> for SlopedRound {
-    #[inline(always)]
-    fn on(self, at: Across) -> SlopedRound {
-        SlopedRound { own: Sloped { at, ..self.own }, ..self }
+    fn least(&self, nearest: f32) -> f32 {
+        self.own.bottom() + self.round.least(nearest * nearest)
     }
 }
 
@@ -306,49 +339,39 @@ pub(super) struct Cone {
     pub(super) sense: f32,
 }
 
-impl<S: Simd> Surface<S> for Cone {
+impl Along for Cone {
     #[inline(always)]
-    fn at(&self, i: f32x8<S>) -> f32x8<S> {
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
-        let (s, d) = own.at.of(i);
         let (most, level) = (own.half(d), self.inner * self.inner - d * d);
         let free = d.abs() * self.ahead + most * self.beside;
         // Within the level part, its edge is the lowest.
         let edge = not_below_zero(level).sqrt() * self.sense;
         let free = (free * free).simd_lt(level).select(edge, free);
-        let t = own.at.clamped(s - between(free, -most, most));
+        let t = own.clamped(s - between(free, -most, most));
         let e = s - t;
         t * own.rise + not_below_zero((d * d + e * e).sqrt() - self.inner) * self.slope + own.floor
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let beyond = (self.own.at.nearest(cells) - self.inner).max(0.0);
-        self.own.bottom() + beyond * self.slope
-    }
-}
-
-impl<S: Simd> Along<S> for Cone {
-    #[inline(always)]
-    fn on(self, at: Across) -> Cone {
-        Cone { own: Sloped { at, ..self.own }, ..self }
+    fn least(&self, nearest: f32) -> f32 {
+        self.own.bottom() + (nearest - self.inner).max(0.0) * self.slope
     }
 }
 
 /// Coordinates of the cells of a row along and across a line.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Across {
-    pub(super) s: f32,
-    pub(super) d: f32,
-    pub(super) ds: f32,
-    pub(super) dd: f32,
-    pub(super) length: f32,
+#[derive(Clone, Copy)]
+pub(crate) struct Across {
+    pub(crate) s: f32,
+    pub(crate) d: f32,
+    pub(crate) ds: f32,
+    pub(crate) dd: f32,
 }
 
 impl Across {
     /// The same of a cell so many rows and columns further.
     #[inline(always)]
-    pub(super) fn shifted(&self, row: usize, column: usize) -> Across {
+    pub(crate) fn shifted(&self, row: usize, column: usize) -> Across {
         let (row, column) = (row as i32 as f32, column as i32 as f32);
         Across {
             s: self.s - row * self.dd + column * self.ds,
@@ -358,23 +381,18 @@ impl Across {
     }
 
     #[inline(always)]
-    pub(super) fn of<S: Simd>(&self, i: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
+    pub(crate) fn of<S: Simd>(&self, i: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
         (i * self.ds + self.s, i * self.dd + self.d)
     }
 
     /// The least distance of the first so many cells from the line, which goes on at both ends.
     #[inline(always)]
-    pub(super) fn nearest(&self, cells: usize) -> f32 {
+    pub(crate) fn nearest(&self, cells: usize) -> f32 {
         let last = self.d + (cells as i32 as f32 - 1.0) * self.dd;
         let (one, other) = (self.d.abs(), last.abs());
         // Not by `f32::min`, which asks for what is no number.
         let least = if one < other { one } else { other };
         if self.d * last <= 0.0 { 0.0 } else { least }
-    }
-
-    #[inline(always)]
-    pub(super) fn clamped<S: Simd>(&self, t: f32x8<S>) -> f32x8<S> {
-        t.max(0.0).min(self.length)
     }
 }
 

@@ -19,7 +19,8 @@ use crate::level_arc::{WIDEST, level_arc};
 use crate::moves::Way;
 use crate::rows::Rows;
 use crate::surface::{
-    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Sloped, SlopedRound, Within, level,
+    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Row, Sloped, SlopedRound, WideFlat, Within,
+    level,
 };
 use crate::tool::Cutter;
 
@@ -107,7 +108,7 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], 
 fn piece(cells: &mut impl Cells, cutter: &Cutter, ends: [[f64; 3]; 2], length: f64, continues: bool) {
     let line = Line::new(ends, length, continues);
     for band in cutter.bands() {
-        dispatch!(level(), simd => line.sweep(simd, cells, band));
+        line.sweep(cells, band);
     }
 }
 
@@ -150,28 +151,28 @@ impl Line {
     }
 
     /// The surface that a band leaves.
-    #[inline(always)]
-    fn sweep<S: Simd>(&self, simd: S, cells: &mut impl Cells, band: &Band) {
+    fn sweep(&self, cells: &mut impl Cells, band: &Band) {
         let floor = (self.from[2] + band.base) as f32;
         let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
-        let own = Sloped { at: Across::default(), floor, rise, outer };
+        let own = Sloped { length: self.length as f32, floor, rise, outer };
         // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
         let done = (self.continues && rise >= 0.0).then_some(0.0);
         match band.form {
-            Form::Flat if rise == 0.0 => self.rows(simd, cells, band, done, Level(floor)),
-            Form::Flat => self.rows(simd, cells, band, done, Flat(own)),
+            Form::Flat if rise == 0.0 => self.rows(cells, band, done, Level(floor)),
+            Form::Flat if band.outer > WIDE * cells.grid().cell => self.rows(cells, band, done, WideFlat(own)),
+            Form::Flat => self.rows(cells, band, done, Flat(own)),
             Form::Round(radius) if band.inner == 0.0 => {
                 let ahead = rise / (1.0 + rise * rise).sqrt();
                 let (radius, square) = (radius as f32, (radius * radius) as f32);
                 // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
                 let done = self.continues.then_some(radius * ahead.min(0.0));
-                self.rows(simd, cells, band, done, Ball { own, radius, square, ahead });
+                self.rows(cells, band, done, Ball { own, radius, square, ahead });
             }
             Form::Round(radius) => {
                 let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
                 match rise == 0.0 {
-                    true => self.rows(simd, cells, band, done, LevelRound { own, round }),
-                    false => self.rows(simd, cells, band, done, SlopedRound { own, round }),
+                    true => self.rows(cells, band, done, LevelRound { own, round }),
+                    false => self.rows(cells, band, done, SlopedRound { own, round }),
                 }
             }
             Form::Cone(slope) => {
@@ -180,23 +181,28 @@ impl Line {
                 let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
                 let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
                 let beside = if steep { sense } else { 0.0 };
-                self.rows(simd, cells, band, done, Cone { own, slope, inner, ahead, beside, sense });
+                self.rows(cells, band, done, Cone { own, slope, inner, ahead, beside, sense });
             }
         }
     }
 
     /// Goes over the rows that a band touches. `done`: cells up to so far along the line are cut already.
+    ///
+    /// Each surface is compiled on its own: fewer values wait in memory for a register than in one large function.
+    fn rows(&self, cells: &mut impl Cells, band: &Band, done: Option<f32>, along: impl Along) {
+        dispatch!(level(), simd => self.rows_by(simd, cells, band.outer, done, along));
+    }
+
     #[inline(always)]
-    fn rows<S: Simd>(
+    fn rows_by<S: Simd>(
         &self,
         simd: S,
         cells: &mut impl Cells,
-        band: &Band,
+        radius: f64,
         done: Option<f32>,
-        along: impl Along<S>,
+        along: impl Along,
     ) {
         let grid = cells.grid();
-        let radius = band.outer;
         let reach = |axis: usize| {
             let [one, other] = [self.from[axis], self.to[axis]];
             grid.between(axis, least(one, other) - radius, most(one, other) + radius)
@@ -214,23 +220,19 @@ impl Line {
         let [ux, uy] = self.along;
         // Of the first cell; `ds` and `dd` are the steps from column to column, and with them those from row to row.
         let (s, d) = ((first[0] * ux + first[1] * uy) as f32, (first[1] * ux - first[0] * uy) as f32);
-        let origin =
-            Across { s, d, ds: cell * ux as f32, dd: -cell * uy as f32, length: self.length as f32 };
+        let at = Across { s, d, ds: cell * ux as f32, dd: -cell * uy as f32 };
+        let length = self.length as f32;
         if narrow {
-            let outer = (radius * radius) as f32;
             // Asking of each cell is less work than asking where the cells of each row begin.
-            for row in 0..rows.len() {
-                let at = origin.shifted(row, 0);
-                let within = Within { along: along.on(at), at, outer };
-                sums = cells.row(sums, simd, rows.start + row, columns.clone(), within);
-            }
+            let within = Within { along, length, outer: (radius * radius) as f32 };
+            sums = cells.narrow(sums, simd, [rows, columns], at, within);
             cells.end(sums);
             return;
         }
         let touched = Rows {
             end: [(self.to[0] - self.from[0]) as f32, (self.to[1] - self.from[1]) as f32],
             along: [ux as f32, uy as f32],
-            length: origin.length,
+            length,
             radius: radius as f32,
             first: [first[0] as f32, first[1] as f32],
             cell,
@@ -241,7 +243,7 @@ impl Line {
             for (lane, row) in (group..rows.len().min(group + LANES)).enumerate() {
                 let of = all.of(lane);
                 if !of.is_empty() {
-                    let surface = along.on(origin.shifted(row, of.start));
+                    let surface = Row { at: at.shifted(row, of.start), along };
                     let columns = columns.start + of.start..columns.start + of.end;
                     sums = cells.row(sums, simd, rows.start + row, columns, surface);
                 }
@@ -250,6 +252,9 @@ impl Line {
         cells.end(sums);
     }
 }
+
+/// Radius of a wide tool, in cells.
+const WIDE: f64 = 6.0;
 
 /// A box around a line with so few columns is worked on as a whole.
 const NARROW: usize = 2 * LANES;

@@ -86,7 +86,7 @@ impl Cells for Lowest {
         (self.rows, self.columns, self.heights) = (rows, columns, heights);
     }
 
-    fn row<S: Simd, W: Surface<S>>(
+    fn row<S: Simd, W: Surface>(
         &mut self,
         _sums: (),
         simd: S,
