@@ -149,12 +149,12 @@ pub(crate) struct History {
     dirty: Vec<bool>,
     /// Tiles along X.
     across: usize,
-    /// First and last row and column of the tiles marked last: most moves stay in the tiles of the move before.
-    marked: [usize; 4],
+    /// Rows and columns of the tiles marked last: most moves stay in the tiles of the move before.
+    marked: [std::ops::Range<usize>; 2],
 }
 
 /// [`History::marked`] where no tiles are marked.
-const NONE: [usize; 4] = [usize::MAX; 4];
+const NONE: [std::ops::Range<usize>; 2] = [0..0, 0..0];
 
 impl History {
     pub(crate) fn new(map: &HeightMap) -> History {
@@ -172,18 +172,23 @@ impl History {
 
     /// Cells of these columns and rows may change.
     pub(crate) fn touch(&mut self, columns: &std::ops::Range<usize>, rows: &std::ops::Range<usize>) {
+        let is_in = |own: &std::ops::Range<usize>, all: &std::ops::Range<usize>| {
+            own.start >= all.start && own.end <= all.end
+        };
+        if !(is_in(rows, &self.marked[0]) && is_in(columns, &self.marked[1])) {
+            self.mark(columns, rows);
+        }
+    }
+
+    fn mark(&mut self, columns: &std::ops::Range<usize>, rows: &std::ops::Range<usize>) {
         if columns.is_empty() || rows.is_empty() {
             return;
         }
-        let tiles @ [first, last, left, right] =
-            [rows.start, rows.end - 1, columns.start, columns.end - 1].map(|cell| cell / TILE);
-        if tiles == self.marked {
-            return;
+        let [rows, columns] = [rows, columns].map(|own| own.start / TILE..own.end.div_ceil(TILE));
+        for row in rows.clone() {
+            self.dirty[row * self.across..][columns.clone()].fill(true);
         }
-        self.marked = tiles;
-        for row in first..=last {
-            self.dirty[row * self.across + left..=row * self.across + right].fill(true);
-        }
+        self.marked = [rows, columns].map(|own| own.start * TILE..own.end * TILE);
     }
 
     /// The stride that is shown.
