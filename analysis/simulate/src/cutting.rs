@@ -12,6 +12,7 @@ use crate::sweep::sweep;
 use crate::tool::Cutter;
 
 /// Cuts one move with an upright tool. `number` counts moves from 1; `continues` as for [`sweep`].
+#[inline(always)]
 pub(crate) fn lower(
     map: &mut HeightMap,
     number: u32,
@@ -176,21 +177,20 @@ impl Cells for Cutting<'_> {
         let least = along.least(0.0);
         for first in columns.clone().step_by(LANES) {
             let (s, d) = at.of(indices(simd, first - columns.start));
-            let mut row = f32x8::splat(simd, 0.0);
-            let whole = rows.start * width + first..(rows.end - 1) * width + first + LANES;
-            let heights = self.map.heights[whole.clone()].chunks_mut(width);
-            for (heights, last) in heights.zip(self.map.last[whole].chunks_mut(width)) {
-                let (Some(heights), Some(last)) = (heights.first_chunk_mut(), last.first_chunk_mut()) else {
-                    break;
-                };
+            let mut number = f32x8::splat(simd, 0.0);
+            for row in rows.clone() {
+                let cell = row * width + first;
+                let heights = self.map.heights.get_mut(cell..).and_then(<[f32]>::first_chunk_mut);
+                let last = self.map.last.get_mut(cell..).and_then(<[u32]>::first_chunk_mut);
+                let (Some(heights), Some(last)) = (heights, last) else { break };
                 let old = f32x8::simd_from(simd, *heights);
                 if W::IS_CHEAP || old.simd_gt(least).any_true() {
-                    let new = along.over(s - row * at.dd, d + row * at.ds);
+                    let new = along.over(s - number * at.dd, d + number * at.ds);
                     if new.simd_lt(old).any_true() {
                         sums.lower(heights, last, new, self.number);
                     }
                 }
-                row += 1.0;
+                number += 1.0;
             }
         }
         sums

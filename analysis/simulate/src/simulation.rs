@@ -194,7 +194,7 @@ impl Simulation {
     }
 
     /// Cuts; `number` counts from 0, `low` is the least Z.
-    #[inline]
+    #[inline(always)]
     fn cut(&mut self, from: [f64; 3], own: &Move, number: usize, low: f64) -> Cut {
         if own.tilt != 0 {
             return self.cut_leaning(from, own, number);

@@ -33,6 +33,7 @@ const PIECE: f64 = 32.0;
 /// Goes along a move of the tip.
 ///
 /// `continues`: the tool has cut already what it cuts where it stands at the start.
+#[inline(always)]
 pub(crate) fn sweep(
     cells: &mut impl Cells,
     cutter: &Cutter,
@@ -43,20 +44,29 @@ pub(crate) fn sweep(
     match way {
         Way::Away => {}
         Way::Rapid | Way::Feed => straight(cells, cutter, [from, to], continues),
-        Way::Arc { plane: [0, 1, 2], centre, sweep }
-            if from[2] == to[2] && distance([from[0], from[1]], *centre) < WIDEST =>
-        {
-            for band in cutter.bands() {
-                level_arc(cells, band, [from, to], *centre, *sweep);
-            }
-        }
         Way::Arc { plane, centre, sweep } => {
-            let (mut last, mut continues) = (from, continues);
-            for at in chords(from, to, plane.map(usize::from), *centre, *sweep) {
-                straight(cells, cutter, [last, at], continues);
-                (last, continues) = (at, true);
-            }
+            arc(cells, cutter, [from, to], (plane, *centre, *sweep), continues);
         }
+    }
+}
+
+fn arc(
+    cells: &mut impl Cells,
+    cutter: &Cutter,
+    [from, to]: [[f64; 3]; 2],
+    (plane, centre, sweep): (&[u8; 3], [f64; 2], f64),
+    continues: bool,
+) {
+    if *plane == [0, 1, 2] && from[2] == to[2] && distance([from[0], from[1]], centre) < WIDEST {
+        for band in cutter.bands() {
+            level_arc(cells, band, [from, to], centre, sweep);
+        }
+        return;
+    }
+    let (mut last, mut continues) = (from, continues);
+    for at in chords(from, to, plane.map(usize::from), centre, sweep) {
+        straight(cells, cutter, [last, at], continues);
+        (last, continues) = (at, true);
     }
 }
 
@@ -89,7 +99,6 @@ pub(crate) fn chords(
     })
 }
 
-#[inline]
 fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], continues: bool) {
     let length = distance([from[0], from[1]], [to[0], to[1]]);
     if length <= PIECE {
@@ -105,6 +114,7 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], 
     }
 }
 
+#[inline]
 fn piece(cells: &mut impl Cells, cutter: &Cutter, ends: [[f64; 3]; 2], length: f64, continues: bool) {
     let line = Line::new(ends, length, continues);
     for band in cutter.bands() {
