@@ -21,7 +21,7 @@ pub(crate) fn lower(
     way: &Way,
     continues: bool,
 ) -> Cut {
-    let mut cutting = Cutting { map, number, cut: Cut::default(), cells: 0.0 };
+    let mut cutting = Cutting { has_hollows: !map.hollows.is_empty(), map, number, cut: Cut::default(), cells: 0.0 };
     sweep(&mut cutting, cutter, ends, way, continues);
     let Cutting { mut cut, cells, map, .. } = cutting;
     cut.removed.volume = (cells * map.grid.cell * map.grid.cell) as f32;
@@ -32,15 +32,27 @@ pub(crate) fn lower(
 struct Cutting<'m> {
     map: &'m mut HeightMap,
     number: u32,
+    has_hollows: bool,
     cut: Cut,
     /// Height removed, summed over all cells, mm.
     cells: f64,
 }
 
 impl Cutting<'_> {
-    /// As [`Cells::row`], cell by cell.
+    /// As [`Cells::row`], of rows that are not worked on in whole groups.
     #[cold]
     #[inline(never)]
+    fn odd_row<S: Simd>(&mut self, simd: S, row: usize, columns: Range<usize>, surface: impl Surface) {
+        match self.has_hollows {
+            true => self.row_with_hollows(simd, row, columns, surface),
+            false => {
+                let begin = row * self.map.grid.cells[0] + columns.start;
+                self.last_row(simd, begin, columns.len(), surface);
+            }
+        }
+    }
+
+    /// As [`Cells::row`], cell by cell.
     fn row_with_hollows<S: Simd>(
         &mut self,
         simd: S,
@@ -60,8 +72,6 @@ impl Cutting<'_> {
     }
 
     /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
-    #[cold]
-    #[inline(never)]
     fn last_row<S: Simd>(&mut self, simd: S, begin: usize, count: usize, surface: impl Surface) {
         let (heights, last) =
             (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
@@ -121,36 +131,29 @@ impl Cells for Cutting<'_> {
     }
 
     #[inline(always)]
-    fn row<S: Simd, W: Surface>(
+    fn row<S: Simd>(
         &mut self,
         mut sums: Sums<S>,
         simd: S,
         row: usize,
         columns: Range<usize>,
-        surface: W,
+        (surface, least): (impl Surface, f32),
     ) -> Sums<S> {
-        if !self.map.hollows.is_empty() {
-            self.row_with_hollows(simd, row, columns, surface);
-            return sums;
-        }
         let begin = row * self.map.grid.cells[0] + columns.start;
         let whole = begin..begin + columns.len().next_multiple_of(LANES);
-        let Some(heights) = self.map.heights.get_mut(whole.clone()) else {
-            self.last_row(simd, begin, columns.len(), surface);
+        let heights = if self.has_hollows { None } else { self.map.heights.get_mut(whole.clone()) };
+        let Some(heights) = heights else {
+            self.odd_row(simd, row, columns, surface);
             return sums;
         };
         let last = &mut self.map.last[whole];
-        let least = surface.least(columns.len());
         let (count, mut at) = (columns.len() as i32 as f32, indices(simd, 0));
         for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
-            let old = f32x8::simd_from(simd, *heights);
-            // Most of what a tool goes over is cut already: the surface is looked at where it may be lower, and cells are
-            // written where it is. Cells behind the last one are those of the next row, and stay.
-            if W::IS_CHEAP || old.simd_gt(least).any_true() {
+            // Most of what a tool goes over is cut already: the surface is looked at where it may be lower. Cells behind the
+            // last one are those of the next row, and stay.
+            if f32x8::simd_from(simd, *heights).simd_gt(least).any_true() {
                 let new = at.simd_lt(count).select(surface.at(at), endless(simd));
-                if new.simd_lt(old).any_true() {
-                    sums.lower(heights, last, new, self.number);
-                }
+                sums.lower(heights, last, new, self.number);
             }
             at += LANES as f32;
         }
@@ -167,14 +170,14 @@ impl Cells for Cutting<'_> {
         along: W,
     ) -> Sums<S> {
         let width = self.map.grid.cells[0];
-        if !self.map.hollows.is_empty() || !columns.len().is_multiple_of(LANES) {
+        if self.has_hollows || !columns.len().is_multiple_of(LANES) {
             for row in rows.clone() {
                 let surface = Row { at: at.shifted(row - rows.start, 0), along };
-                sums = self.row(sums, simd, row, columns.clone(), surface);
+                sums = self.row(sums, simd, row, columns.clone(), (surface, f32::NEG_INFINITY));
             }
             return sums;
         }
-        let least = along.least(0.0);
+        let least = along.least(f32x8::splat(simd, 0.0));
         for first in columns.clone().step_by(LANES) {
             let (s, d) = at.of(indices(simd, first - columns.start));
             let mut number = f32x8::splat(simd, 0.0);
@@ -231,13 +234,13 @@ impl Cells for Probing<'_> {
 
     fn begin<S: Simd>(&mut self, _simd: S, _rows: &Range<usize>, _columns: &Range<usize>) {}
 
-    fn row<S: Simd, W: Surface>(
+    fn row<S: Simd>(
         &mut self,
         _sums: (),
         simd: S,
         row: usize,
         columns: Range<usize>,
-        surface: W,
+        (surface, _least): (impl Surface, f32),
     ) {
         let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
         for first in columns.clone().step_by(LANES) {

@@ -57,7 +57,8 @@ fn rows<S: Simd>(
             let x = (grid.centre(0, columns.start) - centre[0]) as f32;
             let (floor, cell) = (floor as f32, grid.cell as f32);
             let ring = Ring { sector, band, floor, x, y: y as f32, cell };
-            sums = cells.row(sums, simd, row, columns, ring);
+            let least = band.base as f32 + floor;
+            sums = cells.row(sums, simd, row, columns, (ring, least));
         }
     }
     cells.end(sums);
@@ -90,11 +91,6 @@ impl Surface for Ring<'_> {
             }
         };
         distance.simd_le(self.band.outer as f32).select(height, endless(i.simd))
-    }
-
-    #[inline(always)]
-    fn least(&self, _cells: usize) -> f32 {
-        (self.band.base as f32) + self.floor
     }
 }
 

@@ -9,11 +9,9 @@
 //! Lengths in mm from the start of the line, in single precision, which is fine enough for so short pieces. Cells on the very
 //! border count as within: half of them would come and go with the rounding.
 
-use std::ops::Range;
-
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f32x8, i32x8};
 
-use crate::surface::{LANES, endless, indices, not_below_zero};
+use crate::surface::{endless, indices, not_below_zero};
 
 /// How far the border of a tool counts outwards, in cells.
 const BORDER: f32 = 1e-4;
@@ -35,18 +33,18 @@ pub(crate) struct Rows {
     pub(crate) columns: usize,
 }
 
-/// Cells of a group of rows, counted from the first of a row.
-pub(crate) struct Group {
-    first: [i32; LANES],
-    behind: [i32; LANES],
+/// Cells that the tool has cut already, so that they are not looked at again. Lengths in mm.
+#[derive(Clone, Copy)]
+pub(crate) struct Done {
+    /// Cells up to so far along the line.
+    pub(crate) along: f32,
+    /// Cells so far around the start of the line; below zero where none are.
+    pub(crate) around: f32,
 }
 
-impl Group {
-    /// Cells of one of them.
-    #[inline(always)]
-    pub(crate) fn of(&self, lane: usize) -> Range<usize> {
-        self.first[lane] as usize..self.behind[lane] as usize
-    }
+impl Done {
+    /// No cells.
+    pub(crate) const NONE: Done = Done { along: f32::NEG_INFINITY, around: -1.0 };
 }
 
 impl Rows {
@@ -96,20 +94,32 @@ impl Rows {
         if ux > 0.0 { [left.max(x), right] } else { [left, right.min(x)] }
     }
 
-    /// Cells that are touched and more than `done` along the line, mm.
+    /// First cells and ends of two runs in each of a group of rows, counted from the first cell of a row: cells that are touched
+    /// and not done. There is one run only where nothing is done around the start: it is given twice.
     #[inline(always)]
-    pub(crate) fn touched<S: Simd>(&self, simd: S, row: usize, done: Option<f32>) -> Group {
+    pub(crate) fn touched<S: Simd>(&self, simd: S, row: usize, done: Done) -> [[i32x8<S>; 2]; 2] {
         let [mut low, mut high] = self.reach(simd, row);
-        if let Some(done) = done {
-            [low, high] = self.beyond(simd, row, [low, high], done);
+        if done.along > f32::NEG_INFINITY {
+            [low, high] = self.beyond(simd, row, [low, high], done.along);
         }
-        Group { first: self.place(low, -BORDER), behind: self.place(high, BORDER) }
+        let (first, end) = (self.place(low, -BORDER), self.place(high, BORDER));
+        if done.around < 0.0 {
+            return [[first, end]; 2];
+        }
+        // The hole between the runs is a little narrower than what is done.
+        let y = self.y(simd, row);
+        let left = done.around * done.around - y * y;
+        let (half, is_near) = (not_below_zero(left).sqrt(), left.simd_ge(0.0));
+        let none = endless(simd);
+        let hole_first = self.place(is_near.select(-half, none), 2.0 * BORDER).min(end);
+        let hole_end = self.place(is_near.select(half, none), -2.0 * BORDER).max(first);
+        [[first, hole_first], [hole_end, end]]
     }
 
     /// The cell behind each X, whatever its sign: conversion to an integer cuts, and does not round down.
     #[inline(always)]
-    fn place<S: Simd>(&self, x: f32x8<S>, off: f32) -> [i32; LANES] {
+    fn place<S: Simd>(&self, x: f32x8<S>, off: f32) -> i32x8<S> {
         let place = (x - self.first[0]) * (1.0 / self.cell) + (1.0 + off);
-        place.max(0.0).min(self.columns as i32 as f32).to_int::<i32x8<S>>().into()
+        place.max(0.0).min(self.columns as i32 as f32).to_int()
     }
 }

@@ -12,14 +12,14 @@
 
 use std::ops::Range;
 
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::{Select, Simd, SimdBase, SimdInt, dispatch, f32x8, i32x8};
 
 use crate::band::{Band, Form};
 use crate::level_arc::{WIDEST, level_arc};
 use crate::moves::Way;
-use crate::rows::Rows;
+use crate::rows::{Done, Rows};
 use crate::surface::{
-    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Row, Sloped, SlopedRound, WideFlat, Within,
+    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Row, Sloped, SlopedRound, WideFlat, Within, indices,
     level,
 };
 use crate::tool::Cutter;
@@ -166,20 +166,24 @@ impl Line {
         let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
         let own = Sloped { length: self.length as f32, floor, rise, outer };
         // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
-        let done = (self.continues && rise >= 0.0).then_some(0.0);
+        let is_cut = self.continues && rise >= 0.0;
+        let around = |radius: f64| Done { around: if is_cut { radius as f32 } else { -1.0 }, ..Done::NONE };
+        let done = if is_cut { Done { along: 0.0, ..Done::NONE } } else { Done::NONE };
         match band.form {
-            Form::Flat if rise == 0.0 => self.rows(cells, band, done, Level(floor)),
-            Form::Flat if band.outer > WIDE * cells.grid().cell => self.rows(cells, band, done, WideFlat(own)),
-            Form::Flat => self.rows(cells, band, done, Flat(own)),
+            Form::Flat if rise == 0.0 => self.rows(cells, band, around(band.outer), Level(floor)),
+            Form::Flat if band.outer > WIDE * cells.grid().cell => self.rows(cells, band, around(band.outer), WideFlat(own)),
+            Form::Flat => self.rows(cells, band, around(band.outer), Flat(own)),
             Form::Round(radius) if band.inner == 0.0 => {
                 let ahead = rise / (1.0 + rise * rise).sqrt();
                 let (radius, square) = (radius as f32, (radius * radius) as f32);
                 // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
-                let done = self.continues.then_some(radius * ahead.min(0.0));
+                let along = if self.continues { radius * ahead.min(0.0) } else { f32::NEG_INFINITY };
+                let done = Done { along, ..Done::NONE };
                 self.rows(cells, band, done, Ball { own, radius, square, ahead });
             }
             Form::Round(radius) => {
                 let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
+                let done = Done { around: around(band.inner).around, ..done };
                 match rise == 0.0 {
                     true => self.rows(cells, band, done, LevelRound { own, round }),
                     false => self.rows(cells, band, done, SlopedRound { own, round }),
@@ -196,10 +200,10 @@ impl Line {
         }
     }
 
-    /// Goes over the rows that a band touches. `done`: cells up to so far along the line are cut already.
+    /// Goes over the rows that a band touches. `done` is known to be cut already.
     ///
     /// Each surface is compiled on its own: fewer values wait in memory for a register than in one large function.
-    fn rows(&self, cells: &mut impl Cells, band: &Band, done: Option<f32>, along: impl Along) {
+    fn rows(&self, cells: &mut impl Cells, band: &Band, done: Done, along: impl Along) {
         dispatch!(level(), simd => self.rows_by(simd, cells, band.outer, done, along));
     }
 
@@ -209,7 +213,7 @@ impl Line {
         simd: S,
         cells: &mut impl Cells,
         radius: f64,
-        done: Option<f32>,
+        done: Done,
         along: impl Along,
     ) {
         let grid = cells.grid();
@@ -249,17 +253,51 @@ impl Line {
             columns: columns.len(),
         };
         for group in (0..rows.len()).step_by(LANES) {
-            let all = touched.touched(simd, group, done);
-            for (lane, row) in (group..rows.len().min(group + LANES)).enumerate() {
-                let of = all.of(lane);
-                if !of.is_empty() {
-                    let surface = Row { at: at.shifted(row, of.start), along };
-                    let columns = columns.start + of.start..columns.start + of.end;
-                    sums = cells.row(sums, simd, rows.start + row, columns, surface);
+            let runs = touched.touched(simd, group, done);
+            let count = if done.around < 0.0 { 1 } else { 2 };
+            for run in &runs[..count] {
+                let run = Run::new(indices(simd, group), *run, &at, along);
+                for (lane, row) in (group..rows.len()).take(LANES).enumerate() {
+                    let (first, end) = (run.first[lane] as usize, run.end[lane] as usize);
+                    if first < end {
+                        let surface = Row { at: Across { s: run.s[lane], d: run.d[lane], ..at }, along };
+                        let columns = columns.start + first..columns.start + end;
+                        sums = cells.row(sums, simd, rows.start + row, columns, (surface, run.least[lane]));
+                    }
                 }
             }
         }
         cells.end(sums);
+    }
+}
+
+/// One run of cells in each of a group of rows.
+struct Run {
+    first: [i32; LANES],
+    end: [i32; LANES],
+    /// Coordinates of the first cell along and across the line.
+    s: [f32; LANES],
+    d: [f32; LANES],
+    /// Heights that the surface does not go below.
+    least: [f32; LANES],
+}
+
+impl Run {
+    #[inline(always)]
+    fn new<S: Simd>(
+        rows: f32x8<S>,
+        [first, end]: [i32x8<S>; 2],
+        at: &Across,
+        along: impl Along,
+    ) -> Run {
+        let (column, behind): (f32x8<S>, f32x8<S>) = (first.to_float(), end.to_float());
+        let s = column * at.ds - rows * at.dd + at.s;
+        let row_d = rows * at.ds + at.d;
+        let (d, last) = (column * at.dd + row_d, (behind - 1.0) * at.dd + row_d);
+        // The line goes on at both ends; where it crosses the run, its distance is 0.
+        let nearest = (d * last).simd_gt(0.0).select(d.abs().min(last.abs()), f32x8::splat(rows.simd, 0.0));
+        let least = along.least(nearest);
+        Run { first: first.into(), end: end.into(), s: s.into(), d: d.into(), least: least.into() }
     }
 }
 

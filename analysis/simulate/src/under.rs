@@ -86,13 +86,13 @@ impl Cells for Lowest {
         (self.rows, self.columns, self.heights) = (rows, columns, heights);
     }
 
-    fn row<S: Simd, W: Surface>(
+    fn row<S: Simd>(
         &mut self,
         _sums: (),
         simd: S,
         row: usize,
         columns: Range<usize>,
-        surface: W,
+        (surface, _least): (impl Surface, f32),
     ) {
         let start = (row - self.rows.start) * self.columns.len();
         for first in columns.clone().step_by(LANES) {
