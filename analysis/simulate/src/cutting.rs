@@ -12,20 +12,20 @@ use crate::sweep::sweep;
 use crate::tool::Cutter;
 
 /// Cuts one move with an upright tool. `number` counts moves from 1; `continues` as for [`sweep`].
+///
+/// Adds to `cut`. To return it would copy it in pieces of another size than it was written, which the processor waits for.
 #[inline(always)]
 pub(crate) fn lower(
     map: &mut HeightMap,
     number: u32,
     cutter: &Cutter,
-    ends: [[f64; 3]; 2],
+    ends: [&[f64; 3]; 2],
     way: &Way,
     continues: bool,
-) -> Cut {
-    let mut cutting = Cutting { has_hollows: !map.hollows.is_empty(), map, number, cut: Cut::default(), cells: 0.0 };
+    cut: &mut Cut,
+) {
+    let mut cutting = Cutting { has_hollows: !map.hollows.is_empty(), map, number, cut };
     sweep(&mut cutting, cutter, ends, way, continues);
-    let Cutting { mut cut, cells, map, .. } = cutting;
-    cut.removed.volume = (cells * map.grid.cell * map.grid.cell) as f32;
-    cut
 }
 
 /// Lowers a map.
@@ -33,9 +33,7 @@ struct Cutting<'m> {
     map: &'m mut HeightMap,
     number: u32,
     has_hollows: bool,
-    cut: Cut,
-    /// Height removed, summed over all cells, mm.
-    cells: f64,
+    cut: &'m mut Cut,
 }
 
 impl Cutting<'_> {
@@ -65,8 +63,8 @@ impl Cutting<'_> {
             let new: [f32; LANES] = surface.at(indices(simd, first - columns.start)).into();
             for (column, new) in (first..columns.end).zip(new) {
                 let taken = take(self.map, start + column, [new, f32::INFINITY], self.number);
-                self.cells += f64::from(taken);
-                self.cut.removed.depth = self.cut.removed.depth.max(taken);
+                self.cut.heights += f64::from(taken);
+                self.cut.depth = self.cut.depth.max(taken);
             }
         }
     }
@@ -203,10 +201,10 @@ impl Cells for Cutting<'_> {
     #[inline(always)]
     fn end<S: Simd>(&mut self, sums: Sums<S>) {
         let (volumes, depths): ([f32; LANES], [f32; LANES]) = (sums.volumes.into(), sums.depths.into());
-        self.cells += f64::from(volumes.into_iter().sum::<f32>());
+        self.cut.heights += f64::from(volumes.into_iter().sum::<f32>());
         for depth in depths {
-            if depth > self.cut.removed.depth {
-                self.cut.removed.depth = depth;
+            if depth > self.cut.depth {
+                self.cut.depth = depth;
             }
         }
     }
@@ -215,7 +213,7 @@ impl Cells for Cutting<'_> {
 /// How deep a part of a tool goes into a map along a move, where it does.
 pub(crate) fn probe(map: &HeightMap, part: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
     let mut probing = Probing { map, worst: None };
-    sweep(&mut probing, part, [from, own.end], &own.way, false);
+    sweep(&mut probing, part, [&from, &own.end], &own.way, false);
     probing.worst
 }
 

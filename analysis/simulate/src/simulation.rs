@@ -156,9 +156,10 @@ impl Simulation {
         if own.way == Way::Rapid || self.has_obstacles {
             self.look(from, &own, low);
         }
-        let cut = self.cut(from, &own, count, low);
+        let mut cut = Cut::default();
+        self.cut(from, &own, count, low, &mut cut);
         self.moves.push(own);
-        self.removed.push(cut.removed);
+        self.removed.push(cut.removed(self.map.grid.cell));
         self.shown = count + 1;
         if !matches!(own.way, Way::Away) {
             self.judge(from, &own, &cut);
@@ -188,30 +189,31 @@ impl Simulation {
         }
         while self.shown < moves {
             let (from, own) = (self.before(self.shown), self.moves[self.shown]);
-            self.cut(from, &own, self.shown, lowest(from, &own));
+            self.cut(from, &own, self.shown, lowest(from, &own), &mut Cut::default());
             self.shown += 1;
         }
     }
 
     /// Cuts; `number` counts from 0, `low` is the least Z.
     #[inline(always)]
-    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize, low: f64) -> Cut {
+    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize, low: f64, cut: &mut Cut) {
         if own.tilt != 0 {
-            return self.cut_leaning(from, own, number);
+            *cut = self.cut_leaning(from, own, number);
+            return;
         }
         let tool = &self.setup.tools[own.tool];
         if low >= f64::from(self.highest) {
-            return Cut::default();
+            return;
         }
         if tool.cutter.upper().is_some() {
-            return self.cut_under(from, own, number);
+            *cut = self.cut_under(from, own, number);
+            return;
         }
         let before = number.checked_sub(1).map(|before| &self.moves[before]);
         let continues = before.is_some_and(|before| before.tool == own.tool && before.way != Way::Away);
         let number = number as u32 + 1;
-        let cut = lower(&mut self.map, number, &tool.cutter, [from, own.end], &own.way, continues);
+        lower(&mut self.map, number, &tool.cutter, [&from, &own.end], &own.way, continues, cut);
         self.history.touch(&cut.columns, &cut.rows);
-        cut
     }
 
     /// The same with a tool that cuts under what stays.
@@ -309,7 +311,7 @@ impl Simulation {
     #[inline]
     fn judge(&mut self, from: [f64; 3], own: &Move, cut: &Cut) {
         let is_without_flute = self.setup.tools[own.tool].flute.is_none();
-        if cut.removed.depth > TOUCH && !(own.turns && is_without_flute) {
+        if cut.depth > TOUCH && !(own.turns && is_without_flute) {
             self.judge_depth(own, cut);
         }
         let body = &self.bodies[own.tool];
@@ -323,7 +325,7 @@ impl Simulation {
     /// Whether a move may cut, and so deep.
     fn judge_depth(&mut self, own: &Move, cut: &Cut) {
         let number = self.moves.len() as u32;
-        let depth = cut.removed.depth;
+        let depth = cut.depth;
         let is_on_neck = self.bodies[own.tool].cutter.upper().is_some();
         // What a tool on a neck takes is never longer than it is.
         let flute = self.setup.tools[own.tool].flute.filter(|_| !is_on_neck && own.tilt == 0);

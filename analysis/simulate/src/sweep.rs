@@ -37,7 +37,7 @@ const PIECE: f64 = 32.0;
 pub(crate) fn sweep(
     cells: &mut impl Cells,
     cutter: &Cutter,
-    [from, to]: [[f64; 3]; 2],
+    [from, to]: [&[f64; 3]; 2],
     way: &Way,
     continues: bool,
 ) {
@@ -53,19 +53,19 @@ pub(crate) fn sweep(
 fn arc(
     cells: &mut impl Cells,
     cutter: &Cutter,
-    [from, to]: [[f64; 3]; 2],
+    [from, to]: [&[f64; 3]; 2],
     (plane, centre, sweep): (&[u8; 3], [f64; 2], f64),
     continues: bool,
 ) {
     if *plane == [0, 1, 2] && from[2] == to[2] && distance([from[0], from[1]], centre) < WIDEST {
         for band in cutter.bands() {
-            level_arc(cells, band, [from, to], centre, sweep);
+            level_arc(cells, band, [*from, *to], centre, sweep);
         }
         return;
     }
-    let (mut last, mut continues) = (from, continues);
-    for at in chords(from, to, plane.map(usize::from), centre, sweep) {
-        straight(cells, cutter, [last, at], continues);
+    let (mut last, mut continues) = (*from, continues);
+    for at in chords(*from, *to, plane.map(usize::from), centre, sweep) {
+        straight(cells, cutter, [&last, &at], continues);
         (last, continues) = (at, true);
     }
 }
@@ -99,23 +99,23 @@ pub(crate) fn chords(
     })
 }
 
-fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], continues: bool) {
+fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [&[f64; 3]; 2], continues: bool) {
     let length = distance([from[0], from[1]], [to[0], to[1]]);
     if length <= PIECE {
         return piece(cells, cutter, [from, to], length, continues);
     }
     let pieces = (length / PIECE).ceil().min(1e6);
-    let mut last = from;
+    let mut last = *from;
     for i in 1..=pieces as usize {
         let part = i as f64 / pieces;
-        let end = if part < 1.0 { [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part) } else { to };
-        piece(cells, cutter, [last, end], length / pieces, continues || i > 1);
+        let end = if part < 1.0 { [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part) } else { *to };
+        piece(cells, cutter, [&last, &end], length / pieces, continues || i > 1);
         last = end;
     }
 }
 
 #[inline]
-fn piece(cells: &mut impl Cells, cutter: &Cutter, ends: [[f64; 3]; 2], length: f64, continues: bool) {
+fn piece(cells: &mut impl Cells, cutter: &Cutter, ends: [&[f64; 3]; 2], length: f64, continues: bool) {
     let line = Line::new(ends, length, continues);
     for band in cutter.bands() {
         line.sweep(cells, band);
@@ -142,7 +142,7 @@ struct Line {
 }
 
 impl Line {
-    fn new([from, to]: [[f64; 3]; 2], length: f64, continues: bool) -> Line {
+    fn new([from, to]: [&[f64; 3]; 2], length: f64, continues: bool) -> Line {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         if length < 1e-9 {
             // Straight down or up: what counts is the lower end.
@@ -150,12 +150,14 @@ impl Line {
             let continues = continues && to[2] >= from[2];
             return Line { from: low, to: low, along: [1.0, 0.0], length: 0.0, rise: 0.0, continues };
         }
+        // One division: each takes as long as the rest of this.
+        let per_length = 1.0 / length;
         Line {
-            from,
-            to,
-            along: [x / length, y / length],
+            from: *from,
+            to: *to,
+            along: [x * per_length, y * per_length],
             length,
-            rise: (to[2] - from[2]) / length,
+            rise: (to[2] - from[2]) * per_length,
             continues,
         }
     }

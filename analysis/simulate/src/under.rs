@@ -38,10 +38,10 @@ pub(crate) fn through(
 fn one(grid: Grid, cutter: &Cutter, ends: [[f64; 3]; 2], way: &Way, shown: &mut dyn FnMut(usize, [f32; 2])) {
     let Some(above) = &cutter.upper() else { return };
     let mut low = Lowest { grid, rows: 0..0, columns: 0..0, heights: Vec::new() };
-    sweep(&mut low, cutter, ends, way, false);
+    sweep(&mut low, cutter, ends.each_ref(), way, false);
     let mut high = Lowest { heights: vec![f32::INFINITY; low.heights.len()], ..low.clone() };
     let upside_down = ends.map(|[x, y, z]| [x, y, -z]);
-    sweep(&mut high, above, upside_down, way, false);
+    sweep(&mut high, above, upside_down.each_ref(), way, false);
     debug_assert_eq!(low.heights.len(), high.heights.len(), "both surfaces reach as far");
     for (n, (low_at, high_at)) in low.heights.iter().zip(&high.heights).enumerate() {
         let [row, column] = [n / low.columns.len(), n % low.columns.len()];
