@@ -77,9 +77,6 @@ pub(crate) trait Cells {
 
 /// A surface over cells of a row. No closure: a closure is no part of the code compiled for an instruction set.
 pub(crate) trait Surface: Copy {
-    /// Whether [`Surface::at`] costs no more than the test whether it is needed.
-    const IS_CHEAP: bool = false;
-
     /// Its heights over eight cells, counted from the first one of these; an infinite one is no surface.
     fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S>;
 
@@ -87,7 +84,7 @@ pub(crate) trait Surface: Copy {
 
 /// A surface along a line, where the tool comes.
 pub(crate) trait Along: Copy {
-    /// As [`Surface::IS_CHEAP`].
+    /// Whether [`Along::over`] costs no more than the test whether it is needed.
     const IS_CHEAP: bool = false;
 
     /// Its heights over cells so far along the line and across it.
@@ -105,8 +102,6 @@ pub(crate) struct Row<W> {
 }
 
 impl<W: Along> Surface for Row<W> {
-    const IS_CHEAP: bool = W::IS_CHEAP;
-
     #[inline(always)]
     fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S> {
         let (s, d) = self.at.of(i);
@@ -198,40 +193,42 @@ impl Along for Level {
 
 /// A level bottom: the lowest end of what touches.
 #[derive(Clone, Copy)]
-pub(super) struct Flat(pub(super) Sloped);
+pub(super) struct Flat {
+    pub(super) own: Sloped,
+    /// 1 downhill, -1 uphill. No branch: which of them comes next is not known before.
+    pub(super) sense: f32,
+}
 
 impl Along for Flat {
     #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
-        let own = &self.0;
-        let half = own.half(d);
-        let half = if own.rise < 0.0 { half } else { -half };
-        own.clamped(s + half) * own.rise + own.floor
+        let own = &self.own;
+        own.clamped(s + own.half(d) * self.sense) * own.rise + own.floor
     }
 
     #[inline(always)]
     fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
-        f32x8::splat(nearest.simd, self.0.bottom())
+        f32x8::splat(nearest.simd, self.own.bottom())
     }
 }
 
 /// The same of a wide tool on a short way: most cells are below its low end.
 #[derive(Clone, Copy)]
-pub(super) struct WideFlat(pub(super) Sloped);
+pub(super) struct WideFlat(pub(super) Flat);
 
 impl Along for WideFlat {
     #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
-        let e = self.0.beyond(s);
-        if (d * d + e * e).simd_le(self.0.outer).all_true() {
-            return f32x8::splat(s.simd, self.0.bottom());
+        let e = self.0.own.beyond(s);
+        if (d * d + e * e).simd_le(self.0.own.outer).all_true() {
+            return f32x8::splat(s.simd, self.0.own.bottom());
         }
-        Flat(self.0).over(s, d)
+        self.0.over(s, d)
     }
 
     #[inline(always)]
     fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
-        f32x8::splat(nearest.simd, self.0.bottom())
+        f32x8::splat(nearest.simd, self.0.own.bottom())
     }
 }
 

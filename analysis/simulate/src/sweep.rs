@@ -171,10 +171,11 @@ impl Line {
         let is_cut = self.continues && rise >= 0.0;
         let around = |radius: f64| Done { around: if is_cut { radius as f32 } else { -1.0 }, ..Done::NONE };
         let done = if is_cut { Done { along: 0.0, ..Done::NONE } } else { Done::NONE };
+        let flat = Flat { own, sense: if rise < 0.0 { 1.0 } else { -1.0 } };
         match band.form {
             Form::Flat if rise == 0.0 => self.rows(cells, band, around(band.outer), Level(floor)),
-            Form::Flat if band.outer > WIDE * cells.grid().cell => self.rows(cells, band, around(band.outer), WideFlat(own)),
-            Form::Flat => self.rows(cells, band, around(band.outer), Flat(own)),
+            Form::Flat if band.outer > WIDE * cells.grid().cell => self.rows(cells, band, around(band.outer), WideFlat(flat)),
+            Form::Flat => self.rows(cells, band, around(band.outer), flat),
             Form::Round(radius) if band.inner == 0.0 => {
                 let ahead = rise / (1.0 + rise * rise).sqrt();
                 let (radius, square) = (radius as f32, (radius * radius) as f32);
@@ -219,11 +220,10 @@ impl Line {
         along: impl Along,
     ) {
         let grid = cells.grid();
-        let reach = |axis: usize| {
-            let [one, other] = [self.from[axis], self.to[axis]];
-            grid.between(axis, least(one, other) - radius, most(one, other) + radius)
-        };
-        let (columns, rows) = (reach(0), reach(1));
+        let [[x0, y0, _], [x1, y1, _]] = [self.from, self.to];
+        let low = [least(x0, x1) - radius, least(y0, y1) - radius];
+        let high = [most(x0, x1) + radius, most(y0, y1) + radius];
+        let (columns, rows) = (grid.between(0, low[0], high[0]), grid.between(1, low[1], high[1]));
         if columns.is_empty() || rows.is_empty() {
             return;
         }
