@@ -83,7 +83,9 @@ impl Changes {
     fn add_run(&mut self, cells: std::ops::Range<usize>) {
         let (first, count) = (cells.start as u32, cells.len() as u16);
         match self.runs.last_mut() {
-            Some((run, length)) if *run + u32::from(*length) == first && length.checked_add(count).is_some() => {
+            Some((run, length))
+                if *run + u32::from(*length) == first && length.checked_add(count).is_some() =>
+            {
                 *length += count;
             }
             _ => self.runs.push((first, count)),

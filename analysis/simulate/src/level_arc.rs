@@ -181,7 +181,8 @@ impl Sector {
     fn box_around<S: Simd>(&self, simd: S, radius: f64) -> [[f64; 2]; 2] {
         let ends = [self.start, self.end];
         let tops = [[radius, 0.0], [0.0, radius], [-radius, 0.0], [0.0, -radius]];
-        let all = ends.into_iter().chain(tops.into_iter().filter(|top| self.has(splat(simd, *top)).any_true()));
+        let all =
+            ends.into_iter().chain(tops.into_iter().filter(|top| self.has(splat(simd, *top)).any_true()));
         all.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
             [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
         })

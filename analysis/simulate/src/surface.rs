@@ -79,7 +79,6 @@ pub(crate) trait Cells {
 pub(crate) trait Surface: Copy {
     /// Its heights over eight cells, counted from the first one of these; an infinite one is no surface.
     fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S>;
-
 }
 
 /// A surface along a line, where the tool comes.

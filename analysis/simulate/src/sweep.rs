@@ -19,8 +19,8 @@ use crate::level_arc::{WIDEST, level_arc};
 use crate::moves::Way;
 use crate::rows::{Done, Rows};
 use crate::surface::{
-    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Row, Sloped, SlopedRound, WideFlat, Within, indices,
-    level,
+    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Row, Sloped, SlopedRound,
+    WideFlat, Within, indices, level,
 };
 use crate::tool::Cutter;
 
@@ -108,7 +108,8 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [&[f64; 3]; 2],
     let mut last = *from;
     for i in 1..=pieces as usize {
         let part = i as f64 / pieces;
-        let end = if part < 1.0 { [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part) } else { *to };
+        let end =
+            if part < 1.0 { [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part) } else { *to };
         piece(cells, cutter, [&last, &end], length / pieces, continues || i > 1);
         last = end;
     }
@@ -174,7 +175,9 @@ impl Line {
         let flat = Flat { own, sense: if rise < 0.0 { 1.0 } else { -1.0 } };
         match band.form {
             Form::Flat if rise == 0.0 => self.rows(cells, band, around(band.outer), Level(floor)),
-            Form::Flat if band.outer > WIDE * cells.grid().cell => self.rows(cells, band, around(band.outer), WideFlat(flat)),
+            Form::Flat if band.outer > WIDE * cells.grid().cell => {
+                self.rows(cells, band, around(band.outer), WideFlat(flat))
+            }
             Form::Flat => self.rows(cells, band, around(band.outer), flat),
             Form::Round(radius) if band.inner == 0.0 => {
                 let ahead = rise / (1.0 + rise * rise).sqrt();
@@ -211,14 +214,7 @@ impl Line {
     }
 
     #[inline(always)]
-    fn rows_by<S: Simd>(
-        &self,
-        simd: S,
-        cells: &mut impl Cells,
-        radius: f64,
-        done: Done,
-        along: impl Along,
-    ) {
+    fn rows_by<S: Simd>(&self, simd: S, cells: &mut impl Cells, radius: f64, done: Done, along: impl Along) {
         let grid = cells.grid();
         let [[x0, y0, _], [x1, y1, _]] = [self.from, self.to];
         let low = [least(x0, x1) - radius, least(y0, y1) - radius];
@@ -231,8 +227,7 @@ impl Line {
         let columns = if narrow { whole_groups(columns, grid.cells[0]) } else { columns };
         let mut sums = cells.begin(simd, &rows, &columns);
         let cell = grid.cell as f32;
-        let first =
-            [grid.centre(0, columns.start) - self.from[0], grid.centre(1, rows.start) - self.from[1]];
+        let first = [grid.centre(0, columns.start) - self.from[0], grid.centre(1, rows.start) - self.from[1]];
         let [ux, uy] = self.along;
         // Of the first cell; `ds` and `dd` are the steps from column to column, and with them those from row to row.
         let (s, d) = ((first[0] * ux + first[1] * uy) as f32, (first[1] * ux - first[0] * uy) as f32);
@@ -286,12 +281,7 @@ struct Run {
 
 impl Run {
     #[inline(always)]
-    fn new<S: Simd>(
-        rows: f32x8<S>,
-        [first, end]: [i32x8<S>; 2],
-        at: &Across,
-        along: impl Along,
-    ) -> Run {
+    fn new<S: Simd>(rows: f32x8<S>, [first, end]: [i32x8<S>; 2], at: &Across, along: impl Along) -> Run {
         let (column, behind): (f32x8<S>, f32x8<S>) = (first.to_float(), end.to_float());
         let s = column * at.ds - rows * at.dd + at.s;
         let row_d = rows * at.ds + at.d;
