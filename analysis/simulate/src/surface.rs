@@ -14,8 +14,26 @@ pub(crate) const LANES: usize = 8;
 
 /// Vector instructions of this processor. All of them give the same results, bit by bit.
 pub(crate) fn level() -> fearless_simd::Level {
+    #[cfg(test)]
+    if let Some(forced) = FORCED.get() {
+        return forced;
+    }
     static LEVEL: LazyLock<fearless_simd::Level> = LazyLock::new(fearless_simd::Level::new);
     *LEVEL
+}
+
+#[cfg(test)]
+thread_local! {
+    static FORCED: std::cell::Cell<Option<fearless_simd::Level>> = const { std::cell::Cell::new(None) };
+}
+
+/// Works with other vector instructions.
+#[cfg(test)]
+pub(crate) fn with_level<T>(level: fearless_simd::Level, work: impl FnOnce() -> T) -> T {
+    FORCED.set(Some(level));
+    let made = work();
+    FORCED.set(None);
+    made
 }
 
 /// Indices of the cells of a group whose first cell has index `first`.
