@@ -424,8 +424,9 @@ impl Round {
     /// h(q) = q² · (1 + m² − d² / r²) − ρ² · m² = 0,   r = inner + q
     /// ```
     ///
-    /// `h` is convex, so that a step of Newton's method from below ends above the root. The geometric mean of both bounds is
-    /// near it; [`STEPS`] more find it to 0.1 % of what a micrometre needs, for corners up to 6 mm.
+    /// `h` is convex: a step of Newton's method from a lower bound ends above the root. The geometric mean of both bounds is
+    /// the start. After [`STEPS`] steps more, the height is at most 0.04 µm too high, for corners up to 6 mm and slopes from
+    /// 0.001 to 5.
     #[inline(always)]
     pub(super) fn touch<S: Simd>(&self, d: f32x8<S>, rise: f32) -> f32x8<S> {
         let (d2, m2) = (d * d, rise * rise);
@@ -446,7 +447,7 @@ impl Round {
         let (part, d2_part) = (q * per_r, d2 * q * per_r);
         let h = q * q * (1.0 + m2) - d2_part * part - self.radius * self.radius * m2;
         let half_slope = q * (1.0 + m2) - d2_part * (1.0 - part) * per_r;
-        // Where the slope is lost in rounding, the corner is nearly level: any place will do.
+        // The slope is 0 only where rounding has lost it. The surface is nearly level there: any place will do.
         (q - h * 0.5 / half_slope.max(f32::MIN_POSITIVE)).max(low).min(self.outer - self.inner)
     }
 }
