@@ -138,14 +138,16 @@ impl Cells for Cutting<'_> {
         (surface, least): (impl Surface, f32),
     ) -> Sums<S> {
         let begin = row * self.map.grid.cells[0] + columns.start;
-        let whole = begin..begin + columns.len().next_multiple_of(LANES);
+        // No `Range::len`, which asks whether the range is the wrong way round.
+        let count = columns.end - columns.start;
+        let whole = begin..begin + count.next_multiple_of(LANES);
         let heights = if self.has_hollows { None } else { self.map.heights.get_mut(whole.clone()) };
         let Some(heights) = heights else {
             self.odd_row(simd, row, columns, surface);
             return sums;
         };
         let last = &mut self.map.last[whole];
-        let (count, mut at) = (columns.len() as i32 as f32, indices(simd, 0));
+        let (count, mut at) = (count as i32 as f32, indices(simd, 0));
         for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
             // Most of what a tool goes over is cut already: the surface is looked at where it may be lower. Cells behind the
             // last one are those of the next row, and stay.
