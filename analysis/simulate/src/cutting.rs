@@ -117,6 +117,8 @@ impl<S: Simd> Sums<S> {
 impl Cells for Cutting<'_> {
     type Sums<S: Simd> = Sums<S>;
 
+    const NARROW: usize = 2 * LANES;
+
     #[inline(always)]
     fn grid(&self) -> Grid {
         self.map.grid
@@ -237,6 +239,8 @@ impl Cells for Probing<'_> {
 
     type Sums<S: Simd> = ();
 
+    const NARROW: usize = 0;
+
     fn begin<S: Simd>(&mut self, _simd: S, _rows: &Range<usize>, _columns: &Range<usize>) {}
 
     fn row<S: Simd>(
@@ -261,4 +265,6 @@ impl Cells for Probing<'_> {
     }
 
     fn end<S: Simd>(&mut self, _sums: ()) {}
+
+    fn narrow<S: Simd, W: Along>(&mut self, _: (), _: S, _: [Range<usize>; 2], _: Across, _: W) {}
 }

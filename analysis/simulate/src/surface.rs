@@ -56,6 +56,9 @@ pub(crate) trait Cells {
     /// Sums over the rows of one box. They are apart from the visitor so that they stay in registers from row to row.
     type Sums<S: Simd>: Copy;
 
+    /// Boxes with so few columns are worked on as a whole, by [`Cells::narrow`]: faster, and more code.
+    const NARROW: usize;
+
     /// The grid of the cells.
     fn grid(&self) -> Grid;
 
@@ -72,22 +75,15 @@ pub(crate) trait Cells {
         surface_and_least: (impl Surface, f32),
     ) -> Self::Sums<S>;
 
-    /// The surface along a line over all cells of a box; `at` is that of its first cell.
-    #[inline(always)]
+    /// The surface along a line over all cells of a box with so few columns; `at` is that of its first cell.
     fn narrow<S: Simd, W: Along>(
         &mut self,
-        mut sums: Self::Sums<S>,
+        sums: Self::Sums<S>,
         simd: S,
-        [rows, columns]: [Range<usize>; 2],
+        rows_and_columns: [Range<usize>; 2],
         at: Across,
         along: W,
-    ) -> Self::Sums<S> {
-        for row in rows.clone() {
-            let surface = Row { at: at.shifted(row - rows.start, 0), along };
-            sums = self.row(sums, simd, row, columns.clone(), (surface, f32::NEG_INFINITY));
-        }
-        sums
-    }
+    ) -> Self::Sums<S>;
 
     /// Ends a box.
     fn end<S: Simd>(&mut self, sums: Self::Sums<S>);

@@ -214,7 +214,7 @@ impl Line {
     }
 
     #[inline(always)]
-    fn rows_by<S: Simd>(&self, simd: S, cells: &mut impl Cells, radius: f64, done: Done, along: impl Along) {
+    fn rows_by<S: Simd, C: Cells>(&self, simd: S, cells: &mut C, radius: f64, done: Done, along: impl Along) {
         let grid = cells.grid();
         let [[x0, y0, _], [x1, y1, _]] = [self.from, self.to];
         let low = [least(x0, x1) - radius, least(y0, y1) - radius];
@@ -223,7 +223,7 @@ impl Line {
         if columns.is_empty() || rows.is_empty() {
             return;
         }
-        let narrow = columns.len() <= NARROW;
+        let narrow = columns.len() <= C::NARROW;
         let columns = if narrow { whole_groups(columns, grid.cells[0]) } else { columns };
         let mut sums = cells.begin(simd, &rows, &columns);
         let cell = grid.cell as f32;
@@ -295,9 +295,6 @@ impl Run {
 
 /// Radius of a wide tool, in cells.
 const WIDE: f64 = 6.0;
-
-/// A box around a line with so few columns is worked on as a whole.
-const NARROW: usize = 2 * LANES;
 
 /// Some more columns, so that none of them is left where they are worked on in groups.
 fn whole_groups(columns: Range<usize>, all: usize) -> Range<usize> {

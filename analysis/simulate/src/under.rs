@@ -9,7 +9,7 @@ use fearless_simd::Simd;
 
 use crate::map::Grid;
 use crate::moves::Way;
-use crate::surface::{Cells, LANES, Surface, indices};
+use crate::surface::{Across, Along, Cells, LANES, Surface, indices};
 use crate::sweep::{chords, sweep};
 use crate::tool::Cutter;
 
@@ -68,6 +68,8 @@ impl Cells for Lowest {
 
     type Sums<S: Simd> = ();
 
+    const NARROW: usize = 0;
+
     fn begin<S: Simd>(&mut self, _simd: S, rows: &Range<usize>, columns: &Range<usize>) {
         let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
             true => other.clone(),
@@ -105,4 +107,6 @@ impl Cells for Lowest {
     }
 
     fn end<S: Simd>(&mut self, _sums: ()) {}
+
+    fn narrow<S: Simd, W: Along>(&mut self, _: (), _: S, _: [Range<usize>; 2], _: Across, _: W) {}
 }
