@@ -19,12 +19,21 @@ pub struct Removed {
 /// The change of a map by a move: the material removed, and the box of the cells changed.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cut {
-    pub(crate) removed: Removed,
+    /// Height removed, summed over all cells, mm.
+    pub(crate) heights: f64,
+    /// Greatest height removed in a cell, mm.
+    pub(crate) depth: f32,
     pub(crate) columns: Range<usize>,
     pub(crate) rows: Range<usize>,
 }
 
 impl Cut {
+    /// The material removed, of cells with this side.
+    #[inline]
+    pub(crate) fn removed(&self, cell: f64) -> Removed {
+        Removed { volume: (self.heights * cell * cell) as f32, depth: self.depth }
+    }
+
     pub(crate) fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
         let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
             true => other.clone(),
@@ -60,18 +69,16 @@ pub(crate) type Shown<'s> = &'s mut dyn FnMut(usize, [f32; 2]);
 
 /// Cuts the cells that are shown.
 pub(crate) fn cut_between(map: &mut HeightMap, number: u32, show: impl FnOnce(Shown)) -> Cut {
-    let (mut cut, mut all) = (Cut::default(), 0.0);
-    let (cell_side, width) = (map.grid.cell, map.grid.cells[0]);
+    let (mut cut, width) = (Cut::default(), map.grid.cells[0]);
     show(&mut |cell, between| {
         let taken = take(map, cell, between, number);
         if taken > 0.0 {
             let [row, column] = [cell / width, cell % width];
             cut.reaches(&(row..row + 1), &(column..column + 1));
-            all += f64::from(taken);
-            cut.removed.depth = cut.removed.depth.max(taken);
+            cut.heights += f64::from(taken);
+            cut.depth = cut.depth.max(taken);
         }
     });
-    cut.removed.volume = (all * cell_side * cell_side) as f32;
     cut
 }
 

@@ -2,10 +2,10 @@
 //!
 //! Distances are in single precision, which is fine enough up to [`WIDEST`].
 
-use wide::{CmpGe, CmpGt, CmpLe, CmpLt, f32x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f32x8, mask32x8};
 
 use crate::band::{Band, Form};
-use crate::surface::{Cells, Surface, not_below_zero};
+use crate::surface::{Cells, Surface, endless, level, not_below_zero};
 
 /// Radius of the widest arc, mm.
 pub(super) const WIDEST: f64 = 1000.0;
@@ -18,18 +18,30 @@ pub(super) fn level_arc(
     centre: [f64; 2],
     sweep: f64,
 ) {
-    let grid = cells.grid();
     let sector = Sector::new([from, to].map(|at| [at[0] - centre[0], at[1] - centre[1]]), sweep);
+    dispatch!(level(), simd => rows(simd, cells, band, from[2], centre, &sector));
+}
+
+#[inline(always)]
+fn rows<S: Simd>(
+    simd: S,
+    cells: &mut impl Cells,
+    band: &Band,
+    floor: f64,
+    centre: [f64; 2],
+    sector: &Sector,
+) {
+    let grid = cells.grid();
     let outer = band.outer;
     let radius = sector.radii[0].max(sector.radii[1]);
-    let [low, high] = sector.box_around(radius);
+    let [low, high] = sector.box_around(simd, radius);
     let hole = sector.radii[0].min(sector.radii[1]) - outer;
     let [columns, rows] = [0, 1]
         .map(|axis| grid.between(axis, centre[axis] + low[axis] - outer, centre[axis] + high[axis] + outer));
     if columns.is_empty() || rows.is_empty() {
         return;
     }
-    cells.reaches(&rows, &columns);
+    let mut sums = cells.begin(simd, &rows, &columns);
     for row in rows {
         let y = grid.centre(1, row) - centre[1];
         let half = ((radius + outer).powi(2) - y * y).max(0.0).sqrt();
@@ -43,10 +55,13 @@ pub(super) fn level_arc(
                 continue;
             }
             let x = (grid.centre(0, columns.start) - centre[0]) as f32;
-            let (floor, cell) = (from[2] as f32, grid.cell as f32);
-            cells.row(row, columns, Ring { sector: &sector, band, floor, x, y: y as f32, cell });
+            let (floor, cell) = (floor as f32, grid.cell as f32);
+            let ring = Ring { sector, band, floor, x, y: y as f32, cell };
+            let least = band.base as f32 + floor;
+            sums = cells.row(sums, simd, row, columns, (ring, least));
         }
     }
+    cells.end(sums);
 }
 
 /// A band along a level arc, over cells of a row.
@@ -63,24 +78,19 @@ struct Ring<'r> {
 
 impl Surface for Ring<'_> {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let distance = self.sector.distance([i * self.cell + self.x, f32x4::splat(self.y)]);
+    fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S> {
+        let distance = self.sector.distance([i * self.cell + self.x, f32x8::splat(i.simd, self.y)]);
         let (base, inner) = ((self.band.base as f32) + self.floor, self.band.inner as f32);
         let beyond = not_below_zero(distance - inner);
         let height = match self.band.form {
-            Form::Flat => f32x4::splat(base),
+            Form::Flat => f32x8::splat(i.simd, base),
             Form::Cone(slope) => beyond * (slope as f32) + base,
             Form::Round(radius) => {
                 let radius = radius as f32;
-                -not_below_zero(f32x4::splat(radius * radius) - beyond * beyond).sqrt() + (base + radius)
+                (base + radius) - not_below_zero(radius * radius - beyond * beyond).sqrt()
             }
         };
-        distance.cmp_le(f32x4::splat(self.band.outer as f32)).blend(height, f32x4::splat(f32::INFINITY))
-    }
-
-    #[inline(always)]
-    fn least(&self, _cells: usize) -> f32 {
-        (self.band.base as f32) + self.floor
+        distance.simd_le(self.band.outer as f32).select(height, endless(i.simd))
     }
 }
 
@@ -97,21 +107,21 @@ struct Sector {
 /// The direction of a place in quarters of a turn, from 0 to 4: it grows as the angle does, which is enough to spread what
 /// is small.
 #[inline(always)]
-fn quarters([x, y]: [f32x4; 2]) -> f32x4 {
-    let part = y / (x.abs() + y.abs()).fast_max(f32x4::splat(f32::MIN_POSITIVE));
-    let right = y.cmp_lt(f32x4::ZERO).blend(part + 4.0, part);
-    x.cmp_lt(f32x4::ZERO).blend(-part + 2.0, right)
+fn quarters<S: Simd>([x, y]: [f32x8<S>; 2]) -> f32x8<S> {
+    let part = y / (x.abs() + y.abs()).max(f32::MIN_POSITIVE);
+    let right = y.simd_lt(0.0).select(part + 4.0, part);
+    x.simd_lt(0.0).select(2.0 - part, right)
 }
 
 #[inline(always)]
-fn length([x, y]: [f32x4; 2]) -> f32x4 {
+fn length<S: Simd>([x, y]: [f32x8<S>; 2]) -> f32x8<S> {
     (x * x + y * y).sqrt()
 }
 
-/// A place, four times.
+/// A place, once a lane.
 #[inline(always)]
-fn four(at: [f64; 2]) -> [f32x4; 2] {
-    at.map(|value| f32x4::splat(value as f32))
+fn splat<S: Simd>(simd: S, at: [f64; 2]) -> [f32x8<S>; 2] {
+    [f32x8::splat(simd, at[0] as f32), f32x8::splat(simd, at[1] as f32)]
 }
 
 impl Sector {
@@ -122,33 +132,36 @@ impl Sector {
 
     /// The radius of the arc in a direction that is one of it.
     #[inline(always)]
-    fn radius(&self, at: [f32x4; 2]) -> f32x4 {
+    fn radius<S: Simd>(&self, at: [f32x8<S>; 2]) -> f32x8<S> {
+        let simd = at[0].simd;
         let [begin, end] = self.radii;
-        let constant = f32x4::splat(begin as f32);
+        let constant = f32x8::splat(simd, begin as f32);
         if begin == end {
             return constant;
         }
-        // Quarters from one direction to another in the sense of the arc.
-        let turn = |to: [f32x4; 2]| {
-            let turn = (quarters(to) - quarters(four(self.start))) * (self.sweep.signum() as f32);
-            turn.cmp_lt(f32x4::ZERO).blend(turn + 4.0, turn)
-        };
-        let all = turn(four(self.end));
-        let part = (turn(at) / all).fast_min(f32x4::splat(1.0));
-        let part = all.cmp_gt(f32x4::ZERO).blend(part, f32x4::ZERO);
+        let all = self.turn(splat(simd, self.end));
+        let part = (self.turn(at) / all).min(1.0);
+        let part = all.simd_gt(0.0).select(part, f32x8::splat(simd, 0.0));
         constant + part * ((end - begin) as f32)
     }
 
-    /// Whether directions are of the arc: all bits of a number set, or none.
+    /// Quarters of a turn from the start to a direction, in the sense of the arc.
     #[inline(always)]
-    fn has(&self, [x, y]: [f32x4; 2]) -> f32x4 {
+    fn turn<S: Simd>(&self, to: [f32x8<S>; 2]) -> f32x8<S> {
+        let turn = (quarters(to) - quarters(splat(to[0].simd, self.start))) * (self.sweep.signum() as f32);
+        turn.simd_lt(0.0).select(turn + 4.0, turn)
+    }
+
+    /// Whether directions are of the arc.
+    #[inline(always)]
+    fn has<S: Simd>(&self, [x, y]: [f32x8<S>; 2]) -> mask32x8<S> {
         let sense = self.sweep.signum();
         let [start, end] = [self.start, self.end].map(|[x, y]| [(x * sense) as f32, (y * sense) as f32]);
-        let behind_start = (y * start[0] - x * start[1]).cmp_ge(f32x4::ZERO);
-        let before_end = (x * end[1] - y * end[0]).cmp_ge(f32x4::ZERO);
+        let behind_start = (y * start[0] - x * start[1]).simd_ge(0.0);
+        let before_end = (x * end[1] - y * end[0]).simd_ge(0.0);
         match self.sweep.abs() {
             // Chords of an arc that ends where it begins would be no arc.
-            sweep if sweep >= std::f64::consts::TAU - 1e-9 => f32x4::ZERO.cmp_le(f32x4::ZERO),
+            sweep if sweep >= std::f64::consts::TAU - 1e-9 => mask32x8::splat(x.simd, true),
             sweep if sweep <= std::f64::consts::PI => behind_start & before_end,
             _ => behind_start | before_end,
         }
@@ -156,17 +169,20 @@ impl Sector {
 
     /// Distances of places from the arc.
     #[inline(always)]
-    fn distance(&self, at: [f32x4; 2]) -> f32x4 {
+    fn distance<S: Simd>(&self, at: [f32x8<S>; 2]) -> f32x8<S> {
         let along = (length(at) - self.radius(at)).abs();
-        let from = |end: [f64; 2]| length([at[0] - end[0] as f32, at[1] - end[1] as f32]);
-        self.has(at).blend(along, from(self.start).fast_min(from(self.end)))
+        let [start, end] = [self.start, self.end].map(|end| end.map(|part| part as f32));
+        let from_start = length([at[0] - start[0], at[1] - start[1]]);
+        let from_end = length([at[0] - end[0], at[1] - end[1]]);
+        self.has(at).select(along, from_start.min(from_end))
     }
 
     /// The box around the arc.
-    fn box_around(&self, radius: f64) -> [[f64; 2]; 2] {
+    fn box_around<S: Simd>(&self, simd: S, radius: f64) -> [[f64; 2]; 2] {
         let ends = [self.start, self.end];
         let tops = [[radius, 0.0], [0.0, radius], [-radius, 0.0], [0.0, -radius]];
-        let all = ends.into_iter().chain(tops.into_iter().filter(|top| self.has(four(*top)).any()));
+        let all =
+            ends.into_iter().chain(tops.into_iter().filter(|top| self.has(splat(simd, *top)).any_true()));
         all.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
             [[low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])]]
         })

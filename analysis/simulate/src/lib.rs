@@ -16,6 +16,7 @@
 mod alarm;
 mod band;
 mod cut;
+mod cutting;
 mod faces;
 mod history;
 mod hollows;

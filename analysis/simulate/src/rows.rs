@@ -1,4 +1,4 @@
-//! The cells that a tool touches on its way along a line, row by row: four rows at once.
+//! The cells that a tool touches on its way along a line, row by row: eight rows at once.
 //!
 //! ```text
 //!          ╭──────────╮          left, right      where the row is within the radius of the line
@@ -9,11 +9,9 @@
 //! Lengths in mm from the start of the line, in single precision, which is fine enough for so short pieces. Cells on the very
 //! border count as within: half of them would come and go with the rounding.
 
-use std::ops::Range;
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f32x8, i32x8};
 
-use wide::{CmpGe, CmpLe, f32x4};
-
-use crate::surface::{COUNT, LANES, between, not_below_zero};
+use crate::surface::{endless, indices, not_below_zero};
 
 /// How far the border of a tool counts outwards, in cells.
 const BORDER: f32 = 1e-4;
@@ -35,39 +33,39 @@ pub(crate) struct Rows {
     pub(crate) columns: usize,
 }
 
-/// Cells of four rows, counted from the first of a row.
-pub(crate) struct Four {
-    first: [i32; LANES],
-    behind: [i32; LANES],
+/// Cells that the tool has cut already, so that they are not looked at again. Lengths in mm.
+#[derive(Clone, Copy)]
+pub(crate) struct Done {
+    /// Cells up to so far along the line.
+    pub(crate) along: f32,
+    /// Cells so far around the start of the line; below zero where none are.
+    pub(crate) around: f32,
 }
 
-impl Four {
-    /// Cells of one of them.
-    #[inline(always)]
-    pub(crate) fn of(&self, lane: usize) -> Range<usize> {
-        self.first[lane] as usize..self.behind[lane] as usize
-    }
+impl Done {
+    /// No cells.
+    pub(crate) const NONE: Done = Done { along: f32::NEG_INFINITY, around: -1.0 };
 }
 
 impl Rows {
     /// How far rows are along Y, from one of them on.
     #[inline(always)]
-    fn y(&self, row: usize) -> f32x4 {
-        (f32x4::splat(row as f32) + COUNT) * self.cell + self.first[1]
+    fn y<S: Simd>(&self, simd: S, row: usize) -> f32x8<S> {
+        indices(simd, row) * self.cell + self.first[1]
     }
 
     /// From and to which X rows are touched; the first is greater where none is.
     #[inline(always)]
-    fn reach(&self, row: usize) -> [f32x4; 2] {
-        let y = self.y(row);
-        let (none, square) = (f32x4::splat(f32::INFINITY), f32x4::splat(self.radius * self.radius));
+    fn reach<S: Simd>(&self, simd: S, row: usize) -> [f32x8<S>; 2] {
+        let y = self.y(simd, row);
+        let (none, square) = (endless(simd), f32x8::splat(simd, self.radius * self.radius));
         let (mut low, mut high) = (none, -none);
         for (x, y) in [(0.0, y), (self.end[0], y - self.end[1])] {
             let left = square - y * y;
             let half = not_below_zero(left).sqrt();
-            let touched = left.cmp_ge(f32x4::ZERO);
-            low = low.fast_min(touched.blend(-half + x, none));
-            high = high.fast_max(touched.blend(half + x, -none));
+            let touched = left.simd_ge(0.0);
+            low = low.min(touched.select(-half + x, none));
+            high = high.max(touched.select(half + x, -none));
         }
         let [ux, uy] = self.along;
         if uy != 0.0 && self.length > 0.0 {
@@ -75,10 +73,10 @@ impl Rows {
             for side in [self.radius, -self.radius] {
                 // The place along this parallel where the row crosses it.
                 let part = (y - side * ux) * per_y;
-                let on = part.cmp_ge(f32x4::ZERO) & part.cmp_le(f32x4::splat(self.length));
+                let on = part.simd_ge(0.0) & part.simd_le(self.length);
                 let x = part * ux - side * uy;
-                low = low.fast_min(on.blend(x, none));
-                high = high.fast_max(on.blend(x, -none));
+                low = low.min(on.select(x, none));
+                high = high.max(on.select(x, -none));
             }
         }
         [low, high]
@@ -86,29 +84,42 @@ impl Rows {
 
     /// The part of it that is more than so far along the line.
     #[inline(always)]
-    fn beyond(&self, row: usize, [left, right]: [f32x4; 2], done: f32) -> [f32x4; 2] {
+    fn beyond<S: Simd>(&self, simd: S, row: usize, [left, right]: [f32x8<S>; 2], done: f32) -> [f32x8<S>; 2] {
         let [ux, uy] = self.along;
-        // The X at which the distance along the line, x · ux + y · uy, is `done`.
-        let x = || (-self.y(row) * uy + done) * (1.0 / ux);
-        if ux > 1e-3 {
-            [left.fast_max(x()), right]
-        } else if ux < -1e-3 {
-            [left, right.fast_min(x())]
-        } else {
-            [left, right]
+        if ux.abs() <= 1e-3 {
+            return [left, right];
         }
+        // The X at which the distance along the line, x · ux + y · uy, is `done`.
+        let x = (done - self.y(simd, row) * uy) * (1.0 / ux);
+        if ux > 0.0 { [left.max(x), right] } else { [left, right.min(x)] }
     }
 
-    /// Cells that are touched and more than `done` along the line, mm.
+    /// First cells and ends of two runs in each of a group of rows, counted from the first cell of a row: cells that are touched
+    /// and not done. There is one run only where nothing is done around the start: it is given twice.
     #[inline(always)]
-    pub(crate) fn touched(&self, row: usize, done: Option<f32>) -> Four {
-        let reach = self.reach(row);
-        let [low, high] = done.map_or(reach, |done| self.beyond(row, reach, done));
-        let (most, per_mm) = (f32x4::splat(self.columns as f32), 1.0 / self.cell);
-        // The cell behind each place, whatever its sign: whole numbers are cut, not rounded down.
-        let place = |x: f32x4, off: f32| {
-            between((x - self.first[0]) * per_mm + (1.0 + off), f32x4::ZERO, most).fast_trunc_int().to_array()
-        };
-        Four { first: place(low, -BORDER), behind: place(high, BORDER) }
+    pub(crate) fn touched<S: Simd>(&self, simd: S, row: usize, done: Done) -> [[i32x8<S>; 2]; 2] {
+        let [mut low, mut high] = self.reach(simd, row);
+        if done.along > f32::NEG_INFINITY {
+            [low, high] = self.beyond(simd, row, [low, high], done.along);
+        }
+        let (first, end) = (self.place(low, -BORDER), self.place(high, BORDER));
+        if done.around < 0.0 {
+            return [[first, end]; 2];
+        }
+        // The hole between the runs is a little narrower than what is done.
+        let y = self.y(simd, row);
+        let left = done.around * done.around - y * y;
+        let (half, is_near) = (not_below_zero(left).sqrt(), left.simd_ge(0.0));
+        let none = endless(simd);
+        let hole_first = self.place(is_near.select(-half, none), 2.0 * BORDER).min(end);
+        let hole_end = self.place(is_near.select(half, none), -2.0 * BORDER).max(first);
+        [[first, hole_first], [hole_end, end]]
+    }
+
+    /// The cell behind each X, whatever its sign: conversion to an integer cuts, and does not round down.
+    #[inline(always)]
+    fn place<S: Simd>(&self, x: f32x8<S>, off: f32) -> i32x8<S> {
+        let place = (x - self.first[0]) * (1.0 / self.cell) + (1.0 + off);
+        place.max(0.0).min(self.columns as i32 as f32).to_int()
     }
 }

@@ -1,19 +1,15 @@
 //! A program's moves on a part.
 
-use std::ops::Range;
-
-use wide::{CmpGt, CmpLt, f32x4};
-
 use crate::alarm::{Alarm, AlarmKind};
-use crate::cut::{Cut, Hit, Removed, TOUCH, cut_between, probe_between, take};
+use crate::cut::{Cut, Hit, Removed, TOUCH, cut_between, probe_between};
+use crate::cutting::{lower, probe};
 use crate::history::{History, STRIDE};
 use crate::leaning::{Leaning, Path};
-use crate::map::{Grid, HeightMap};
+use crate::map::HeightMap;
 use crate::moves::{Axes, Move, Way};
 use crate::slices::Convex;
 use crate::stock::{Fixture, Stock};
-use crate::surface::{COUNT, Cells, LANES, Surface};
-use crate::sweep::{chords, sweep};
+use crate::sweep::chords;
 use crate::tool::{Cutter, Tool};
 use crate::under::through;
 
@@ -69,6 +65,10 @@ pub struct Simulation {
     history: History,
     /// How many moves the map shows.
     shown: usize,
+    /// The number of moves at which the history keeps the map next.
+    next_stride: usize,
+    /// Whether there are fixtures or a table.
+    has_obstacles: bool,
 }
 
 impl Simulation {
@@ -95,6 +95,8 @@ impl Simulation {
             removed: Vec::new(),
             alarms: Vec::new(),
             shown: 0,
+            next_stride: STRIDE,
+            has_obstacles: !setup.fixtures.is_empty() || setup.table.is_some(),
             setup,
             map,
         }
@@ -147,29 +149,38 @@ impl Simulation {
     pub fn push(&mut self, own: Move) {
         assert!(own.tool < self.setup.tools.len(), "a move with a tool that is not set up");
         assert!(usize::from(own.tilt) <= self.setup.tilts.len(), "a move on a plane that is not set up");
-        self.seek(self.moves.len());
-        let from = self.before(self.moves.len());
-        if own.way != Way::Away {
-            self.look(from, &own);
+        let count = self.moves.len();
+        self.seek(count);
+        let from = self.before(count);
+        let low = lowest(from, &own);
+        if own.way == Way::Rapid || self.has_obstacles {
+            self.look(from, &own, low);
         }
-        let removed = self.cut(from, &own, self.moves.len());
+        let mut cut = Cut::default();
+        self.cut(from, &own, count, low, &mut cut);
         self.moves.push(own);
-        self.removed.push(removed.removed);
-        self.shown = self.moves.len();
-        if own.way != Way::Away {
-            self.judge(&own, &removed);
+        self.removed.push(cut.removed(self.map.grid.cell));
+        self.shown = count + 1;
+        if !matches!(own.way, Way::Away) {
+            self.judge(from, &own, &cut);
         }
-        if self.moves.len().is_multiple_of(STRIDE) {
+        if self.shown == self.next_stride {
+            self.next_stride += STRIDE;
             self.history.keep(&self.map);
         }
     }
 
     /// Shows the part after so many moves, or after all of them where there are fewer.
+    #[inline]
     pub fn seek(&mut self, moves: usize) {
         let moves = moves.min(self.moves.len());
-        if moves == self.shown {
-            return;
+        if moves != self.shown {
+            self.show(moves);
         }
+    }
+
+    #[cold]
+    fn show(&mut self, moves: usize) {
         let stride = (moves / STRIDE).min(self.history.len());
         // What has been made of a stride is gone on with.
         if !(stride == self.history.at() && moves > self.shown) {
@@ -178,41 +189,40 @@ impl Simulation {
         }
         while self.shown < moves {
             let (from, own) = (self.before(self.shown), self.moves[self.shown]);
-            self.cut(from, &own, self.shown);
+            self.cut(from, &own, self.shown, lowest(from, &own), &mut Cut::default());
             self.shown += 1;
         }
     }
 
-    /// Cuts; `number` counts from 0.
-    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
+    /// Cuts; `number` counts from 0, `low` is the least Z.
+    #[inline(always)]
+    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize, low: f64, cut: &mut Cut) {
         if own.tilt != 0 {
-            return self.cut_leaning(from, own, number);
+            *cut = self.cut_leaning(from, own, number);
+            return;
         }
         let tool = &self.setup.tools[own.tool];
-        if lowest(from, own) >= f64::from(self.highest) {
-            return Cut::default();
+        if low >= f64::from(self.highest) {
+            return;
         }
         if tool.cutter.upper().is_some() {
-            let (grid, to) = (self.map.grid, own.end);
-            let cut = cut_between(&mut self.map, number as u32 + 1, |shown| {
-                through(grid, &tool.cutter, from, to, &own.way, shown);
-            });
-            self.history.touch(&cut.columns, &cut.rows);
-            return cut;
+            *cut = self.cut_under(from, own, number);
+            return;
         }
         let before = number.checked_sub(1).map(|before| &self.moves[before]);
         let continues = before.is_some_and(|before| before.tool == own.tool && before.way != Way::Away);
-        let mut cutting = Cutting {
-            map: &mut self.map,
-            number: number as u32 + 1,
-            cut: Cut::default(),
-            cells: 0.0,
-            sums: Sums::default(),
-        };
-        sweep(&mut cutting, &tool.cutter, [from, own.end], &own.way, continues);
-        cutting.add_up();
-        let Cutting { mut cut, cells, .. } = cutting;
-        cut.removed.volume = (cells * self.map.grid.cell * self.map.grid.cell) as f32;
+        let number = number as u32 + 1;
+        lower(&mut self.map, number, &tool.cutter, [&from, &own.end], &own.way, continues, cut);
+        self.history.touch(&cut.columns, &cut.rows);
+    }
+
+    /// The same with a tool that cuts under what stays.
+    #[cold]
+    fn cut_under(&mut self, from: [f64; 3], own: &Move, number: usize) -> Cut {
+        let (cutter, grid) = (&self.setup.tools[own.tool].cutter, self.map.grid);
+        let cut = cut_between(&mut self.map, number as u32 + 1, |shown| {
+            through(grid, cutter, from, own.end, &own.way, shown);
+        });
         self.history.touch(&cut.columns, &cut.rows);
         cut
     }
@@ -262,13 +272,16 @@ impl Simulation {
         }
     }
 
-    /// What must be asked before a move cuts: what is in its way.
-    fn look(&mut self, from: [f64; 3], own: &Move) {
+    /// What must be asked before a move cuts: what is in its way. `low` is its least Z.
+    #[cold]
+    fn look(&mut self, from: [f64; 3], own: &Move, low: f64) {
+        if matches!(own.way, Way::Away) {
+            return;
+        }
         if own.tilt != 0 {
             return self.look_leaning(from, own);
         }
         let body = &self.bodies[own.tool];
-        let low = lowest(from, own);
         let mut found = Vec::new();
         if own.way == Way::Rapid && low < f64::from(self.highest) {
             let hit = match body.cutter.upper() {
@@ -295,10 +308,24 @@ impl Simulation {
     }
 
     /// What is known of a move when it has cut.
-    fn judge(&mut self, own: &Move, cut: &Cut) {
+    #[inline]
+    fn judge(&mut self, from: [f64; 3], own: &Move, cut: &Cut) {
+        let is_without_flute = self.setup.tools[own.tool].flute.is_none();
+        if cut.depth > TOUCH && !(own.turns && is_without_flute) {
+            self.judge_depth(own, cut);
+        }
+        let body = &self.bodies[own.tool];
+        if own.tilt != 0 || body.shank.is_some() || body.holder.is_some() {
+            for (kind, hit) in self.above_the_cut(from, own) {
+                self.alarm(kind, own, self.moves.len() as u32, hit);
+            }
+        }
+    }
+
+    /// Whether a move may cut, and so deep.
+    fn judge_depth(&mut self, own: &Move, cut: &Cut) {
         let number = self.moves.len() as u32;
-        let from = self.before(self.moves.len() - 1);
-        let depth = cut.removed.depth;
+        let depth = cut.depth;
         let is_on_neck = self.bodies[own.tool].cutter.upper().is_some();
         // What a tool on a neck takes is never longer than it is.
         let flute = self.setup.tools[own.tool].flute.filter(|_| !is_on_neck && own.tilt == 0);
@@ -310,13 +337,6 @@ impl Simulation {
         for (kind, depth) in faults.into_iter().filter(|(_, depth)| *depth > TOUCH) {
             let place = self.where_cut(number, cut).unwrap_or(own.end);
             self.alarm(kind, own, number, Hit { place, depth });
-        }
-        let body = &self.bodies[own.tool];
-        if own.tilt == 0 && body.shank.is_none() && body.holder.is_none() {
-            return;
-        }
-        for (kind, hit) in self.above_the_cut(from, own) {
-            self.alarm(kind, own, number, hit);
         }
     }
 
@@ -381,165 +401,95 @@ impl Simulation {
     }
 }
 
-/// The least Z of a move.
+/// The least Z of a move; endless where it cuts nothing.
+#[inline]
 fn lowest(from: [f64; 3], own: &Move) -> f64 {
-    let ends = from[2].min(own.end[2]);
+    let ends = if from[2] < own.end[2] { from[2] } else { own.end[2] };
     match own.way {
+        Way::Away => f64::INFINITY,
         // An arc in another plane may go below both of its ends.
         Way::Arc { plane, centre, sweep } if plane[2] != 2 => {
             chords(from, own.end, plane.map(usize::from), centre, sweep).map(|at| at[2]).fold(ends, f64::min)
         }
-        Way::Away => f64::INFINITY,
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
     }
 }
 
-/// Lowers a map.
-struct Cutting<'m> {
-    map: &'m mut HeightMap,
-    number: u32,
-    cut: Cut,
-    /// What was removed, in heights of cells.
-    cells: f64,
-    sums: Sums,
-}
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use fearless_simd::Level;
 
-impl Cutting<'_> {
-    /// As [`Cells::row`], cell by cell.
-    #[cold]
-    fn row_with_hollows(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
-        let start = row * self.map.grid.cells[0];
-        for first in columns.clone().step_by(LANES) {
-            let new = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
-            for (column, new) in (first..columns.end).zip(new) {
-                let taken = take(self.map, start + column, [new, f32::INFINITY], self.number);
-                self.cells += f64::from(taken);
-                self.cut.removed.depth = self.cut.removed.depth.max(taken);
-            }
-        }
-    }
+    use super::{Setup, Simulation};
+    use crate::moves::{Move, Way};
+    use crate::stock::Stock;
+    use crate::surface::with_level;
+    use crate::tool::{Cutter, Shape, Tool};
 
-    /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
-    #[cold]
-    fn last_row(&mut self, begin: usize, count: usize, surface: impl Surface) {
-        let (heights, last) =
-            (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
-        for (n, (heights, last)) in heights.chunks_mut(LANES).zip(last.chunks_mut(LANES)).enumerate() {
-            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
-            few[..heights.len()].copy_from_slice(heights);
-            of[..last.len()].copy_from_slice(last);
-            let new = surface.at(COUNT + f32x4::splat((n * LANES) as f32));
-            self.sums.lower(&mut few, &mut of, new.to_array(), self.number);
-            heights.copy_from_slice(&few[..heights.len()]);
-            last.copy_from_slice(&of[..last.len()]);
-        }
-    }
-
-    /// Adds what was removed since the last time: single precision is fine enough for so much.
-    fn add_up(&mut self) {
-        let Sums { volumes, depths } = std::mem::take(&mut self.sums);
-        self.cells += f64::from(volumes.into_iter().sum::<f32>());
-        self.cut.removed.depth = depths.into_iter().fold(self.cut.removed.depth, f32::max);
-    }
-}
-
-/// What was removed in some cells, in as many sums.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    volumes: [f32; LANES],
-    depths: [f32; LANES],
-}
-
-impl Sums {
-    /// Lowers cells to a surface, where that is lower. Without a branch, which the next cells could not be waited for.
-    #[inline(always)]
-    fn lower(&mut self, heights: &mut [f32; LANES], last: &mut [u32; LANES], new: [f32; LANES], number: u32) {
-        for lane in 0..LANES {
-            let old = heights[lane];
-            let mask = if new[lane] < old { u32::MAX } else { 0 };
-            // Nothing less nothing is no number; it is masked out.
-            let depth = f32::from_bits((old - new[lane]).to_bits() & mask);
-            heights[lane] = if new[lane] < old { new[lane] } else { old };
-            last[lane] = last[lane] & !mask | number & mask;
-            self.volumes[lane] += depth;
-            self.depths[lane] = if depth > self.depths[lane] { depth } else { self.depths[lane] };
-        }
-    }
-}
-
-impl Cells for Cutting<'_> {
-    #[inline]
-    fn grid(&self) -> Grid {
-        self.map.grid
-    }
-
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
-        self.cut.reaches(rows, columns);
-        self.add_up();
-    }
-
-    #[inline(always)]
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
-        if !self.map.hollows.is_empty() {
-            self.row_with_hollows(row, columns, surface);
-            return;
-        }
-        let begin = row * self.map.grid.cells[0] + columns.start;
-        let whole = begin..begin + columns.len().next_multiple_of(LANES);
-        let Some(heights) = self.map.heights.get_mut(whole.clone()) else {
-            self.last_row(begin, columns.len(), surface);
-            return;
+    /// The part that a tool of 4 mm diameter leaves, on cells of 0.2 mm: lines that climb and fall, and arcs.
+    fn part(shape: &Shape) -> Simulation {
+        let tool = Tool {
+            number: 1,
+            cutter: Cutter::new(shape, 4.0, 10.0).expect("a tool"),
+            flute: None,
+            shank: None,
+            holder: None,
+            guessed: false,
         };
-        let last = &mut self.map.last[whole];
-        let mut sums = self.sums;
-        let least = f32x4::splat(surface.least(columns.len()));
-        let (count, mut at) = (f32x4::splat(columns.len() as i32 as f32), COUNT);
-        for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
-            let old = f32x4::new(*heights);
-            // Most of what a tool goes over is cut already: the surface is looked at where it may be lower, and cells are
-            // written where it is. Cells behind the last one are those of the next row, and stay.
-            if old.cmp_gt(least).any() {
-                let new = at.cmp_lt(count).blend(surface.at(at), f32x4::splat(f32::INFINITY));
-                if new.cmp_lt(old).any() {
-                    sums.lower(heights, last, new.to_array(), self.number);
+        let mut part = Simulation::new(Setup {
+            stock: Stock::Block { low: [0.0, 0.0, -10.0], high: [20.0, 20.0, 0.0] },
+            guessed: false,
+            cells: 100,
+            tools: vec![tool],
+            fixtures: Vec::new(),
+            table: None,
+            start: [2.0, 2.0, 1.0],
+            tilts: Vec::new(),
+        });
+        let mut rng = fastrand::Rng::with_seed(1);
+        for n in 0..300 {
+            let end = [rng.f64() * 22.0 - 1.0, rng.f64() * 22.0 - 1.0, -8.0 * rng.f64()];
+            let from = part.before(n);
+            // Short moves, as of surfacing, and long ones.
+            let near = if n % 3 == 0 { 1.0 } else { 0.05 };
+            let mut end: [f64; 3] = std::array::from_fn(|axis| from[axis] + near * (end[axis] - from[axis]));
+            let way = match n % 7 {
+                0 => {
+                    end = from;
+                    Way::Arc { plane: [0, 1, 2], centre: [from[0] - 3.0, from[1]], sweep: 7.0 }
                 }
-            }
-            at += f32x4::splat(LANES as f32);
+                _ => Way::Feed,
+            };
+            part.push(Move { way, end, tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 });
         }
-        self.sums = sums;
-    }
-}
-
-/// How deep a part of a tool goes into a map along a move, where it does.
-fn probe(map: &HeightMap, part: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
-    let mut probing = Probing { map, worst: None };
-    sweep(&mut probing, part, [from, own.end], &own.way, false);
-    probing.worst
-}
-
-/// Looks at a map.
-struct Probing<'m> {
-    map: &'m HeightMap,
-    worst: Option<Hit>,
-}
-
-impl Cells for Probing<'_> {
-    fn grid(&self) -> Grid {
-        self.map.grid
+        part
     }
 
-    fn reaches(&mut self, _rows: &Range<usize>, _columns: &Range<usize>) {}
-
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
-        let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
-        for first in columns.clone().step_by(LANES) {
-            let tools = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
-            for (column, tool) in (first..columns.end).zip(tools) {
-                let depth = self.map.heights[start + column] - tool;
-                if depth > self.worst.map_or(TOUCH, |worst| worst.depth) {
-                    let place = [grid.centre(0, column), grid.centre(1, row), f64::from(tool)];
-                    self.worst = Some(Hit { place, depth });
-                }
+    /// What a program leaves does not depend on the processor.
+    #[test]
+    fn all_instruction_sets_give_the_same_bits() {
+        let best = Level::new();
+        let levels: Vec<Level> = [
+            best.as_sse2().map(Level::Sse2),
+            best.as_sse4_2().map(Level::Sse4_2),
+            best.as_avx2().map(Level::Avx2),
+            Some(best),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let shapes = [
+            Shape::Flat,
+            Shape::Ball,
+            Shape::BullNose { corner: 0.5 },
+            Shape::Drill { point: 118.0 },
+            Shape::Taper { corner: 0.5, angle: 10.0 },
+        ];
+        for shape in shapes {
+            let all: Vec<Simulation> =
+                levels.iter().map(|level| with_level(*level, || part(&shape))).collect();
+            for pair in all.windows(2) {
+                assert_eq!(pair[0].map(), pair[1].map(), "{shape:?}");
+                assert_eq!(pair[0].removed(), pair[1].removed(), "{shape:?}");
             }
         }
     }

@@ -1,47 +1,157 @@
-//! Surfaces that tools leave over the cells of a row, four cells at once.
+//! Surfaces that tools leave over the cells of a row, eight cells at once.
 //!
 //! Along a line, cells lie `s` along it and `d` across ([`Across`]).
 
 use std::ops::Range;
+use std::sync::LazyLock;
 
-use wide::{CmpGe, CmpGt, CmpLe, CmpLt, f32x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8};
 
 use crate::map::Grid;
 
-/// Cells that are worked on together: compilers make one instruction of what is done to four.
-pub(crate) const LANES: usize = 4;
+/// Cells of a group. The widest vectors used hold eight numbers (AVX2); narrower ones take two or more instructions.
+pub(crate) const LANES: usize = 8;
 
-/// Their places, from the first of them.
-pub(crate) const COUNT: f32x4 = f32x4::new([0.0, 1.0, 2.0, 3.0]);
+/// Vector instructions of this processor. All of them give the same results, bit by bit.
+pub(crate) fn level() -> fearless_simd::Level {
+    #[cfg(test)]
+    if let Some(forced) = FORCED.get() {
+        return forced;
+    }
+    static LEVEL: LazyLock<fearless_simd::Level> = LazyLock::new(fearless_simd::Level::new);
+    *LEVEL
+}
 
-/// Steps by which the place is found where a round corner touches: each halves what is not known.
-const HALVINGS: usize = 10;
+#[cfg(test)]
+thread_local! {
+    static FORCED: std::cell::Cell<Option<fearless_simd::Level>> = const { std::cell::Cell::new(None) };
+}
+
+/// Works with other vector instructions.
+#[cfg(test)]
+pub(crate) fn with_level<T>(level: fearless_simd::Level, work: impl FnOnce() -> T) -> T {
+    FORCED.set(Some(level));
+    let made = work();
+    FORCED.set(None);
+    made
+}
+
+/// Indices of the cells of a group whose first cell has index `first`.
+#[inline(always)]
+pub(crate) fn indices<S: Simd>(simd: S, first: usize) -> f32x8<S> {
+    f32x8::simd_from(simd, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]) + first as i32 as f32
+}
+
+/// An endless height: the tool cuts no cell that has it.
+#[inline(always)]
+pub(crate) fn endless<S: Simd>(simd: S) -> f32x8<S> {
+    f32x8::splat(simd, f32::INFINITY)
+}
+
+/// Steps of Newton's method by which the place is found where a round corner touches.
+const STEPS: usize = 3;
 
 /// A visitor of the surface that a move leaves, row by row.
 pub(crate) trait Cells {
+    /// Sums over the rows of one box. They are apart from the visitor so that they stay in registers from row to row.
+    type Sums<S: Simd>: Copy;
+
+    /// Boxes with so few columns are worked on as a whole, by [`Cells::narrow`]: faster, and more code.
+    const NARROW: usize;
+
     /// The grid of the cells.
     fn grid(&self) -> Grid;
 
-    /// Rows of these columns come.
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>);
+    /// Begins a box of these rows and columns.
+    fn begin<S: Simd>(&mut self, simd: S, rows: &Range<usize>, columns: &Range<usize>) -> Self::Sums<S>;
 
-    /// The surface over some cells of a row.
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface);
+    /// The surface over some cells of a row, and a height that it does not go below.
+    fn row<S: Simd>(
+        &mut self,
+        sums: Self::Sums<S>,
+        simd: S,
+        row: usize,
+        columns: Range<usize>,
+        surface_and_least: (impl Surface, f32),
+    ) -> Self::Sums<S>;
+
+    /// The surface along a line over all cells of a box with so few columns; `at` is that of its first cell.
+    fn narrow<S: Simd, W: Along>(
+        &mut self,
+        sums: Self::Sums<S>,
+        simd: S,
+        rows_and_columns: [Range<usize>; 2],
+        at: Across,
+        along: W,
+    ) -> Self::Sums<S>;
+
+    /// Ends a box.
+    fn end<S: Simd>(&mut self, sums: Self::Sums<S>);
 }
 
-/// A surface over cells of a row. No closure, because each must be part of the loop over the cells.
+/// A surface over cells of a row. No closure: a closure is no part of the code compiled for an instruction set.
 pub(crate) trait Surface: Copy {
-    /// Its heights over four cells, counted from the first one of these; an infinite one is no surface.
-    fn at(&self, i: f32x4) -> f32x4;
+    /// Its heights over eight cells, counted from the first one of these; an infinite one is no surface.
+    fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S>;
+}
 
-    /// A height that it does not go below over the first so many cells.
-    fn least(&self, cells: usize) -> f32;
+/// A surface along a line, where the tool comes.
+pub(crate) trait Along: Copy {
+    /// Whether [`Along::over`] costs no more than the test whether it is needed.
+    const IS_CHEAP: bool = false;
+
+    /// Its heights over cells so far along the line and across it.
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S>;
+
+    /// Heights that it does not go below at these distances from the line or farther.
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S>;
+}
+
+/// A surface along a line, over cells of a row.
+#[derive(Clone, Copy)]
+pub(crate) struct Row<W> {
+    pub(crate) at: Across,
+    pub(crate) along: W,
+}
+
+impl<W: Along> Surface for Row<W> {
+    #[inline(always)]
+    fn at<S: Simd>(&self, i: f32x8<S>) -> f32x8<S> {
+        let (s, d) = self.at.of(i);
+        self.along.over(s, d)
+    }
+}
+
+/// A surface along a line, and endless beyond the radius of the tool.
+#[derive(Clone, Copy)]
+pub(super) struct Within<W> {
+    pub(super) along: W,
+    /// Length of the line.
+    pub(super) length: f32,
+    /// Square of the radius.
+    pub(super) outer: f32,
+}
+
+impl<W: Along> Along for Within<W> {
+    const IS_CHEAP: bool = W::IS_CHEAP;
+
+    #[inline(always)]
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
+        let e = s - s.max(0.0).min(self.length);
+        (d * d + e * e).simd_le(self.outer).select(self.along.over(s, d), endless(s.simd))
+    }
+
+    #[inline(always)]
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        self.along.least(nearest)
+    }
 }
 
 /// The values that all surfaces along a line share.
 #[derive(Clone, Copy)]
 pub(super) struct Sloped {
-    pub(super) at: Across,
+    /// Length of the line.
+    pub(super) length: f32,
     /// Height of the band's lowest point at the start, mm.
     pub(super) floor: f32,
     /// By how much that rises, a mm.
@@ -54,37 +164,25 @@ impl Sloped {
     /// The band's lowest point anywhere on the way.
     #[inline(always)]
     pub(super) fn bottom(&self) -> f32 {
-        self.floor + (self.rise * self.at.length).min(0.0)
+        self.floor + (self.rise * self.length).min(0.0)
     }
 
     /// How far along the way the band touches what is so far from it.
     #[inline(always)]
-    pub(super) fn half(&self, d: f32x4) -> f32x4 {
-        not_below_zero(f32x4::splat(self.outer) - d * d).sqrt()
-    }
-}
-
-/// A surface along a line, where a tool of that radius comes.
-#[derive(Clone, Copy)]
-pub(super) struct Within<W> {
-    pub(super) way: W,
-    pub(super) at: Across,
-    /// Square of the radius.
-    pub(super) outer: f32,
-}
-
-impl<W: Surface> Surface for Within<W> {
-    #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let (s, d) = self.at.of(i);
-        let e = s - self.at.clamped(s);
-        let inside = (d * d + e * e).cmp_le(f32x4::splat(self.outer));
-        inside.blend(self.way.at(i), f32x4::splat(f32::INFINITY))
+    pub(super) fn half<S: Simd>(&self, d: f32x8<S>) -> f32x8<S> {
+        not_below_zero(self.outer - d * d).sqrt()
     }
 
+    /// The place of the line next to this one.
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        self.way.least(cells)
+    fn clamped<S: Simd>(&self, t: f32x8<S>) -> f32x8<S> {
+        t.max(0.0).min(self.length)
+    }
+
+    /// How far a cell is beyond the low end of the line: below zero on the line.
+    #[inline(always)]
+    fn beyond<S: Simd>(&self, s: f32x8<S>) -> f32x8<S> {
+        if self.rise < 0.0 { s - self.length } else { -s }
     }
 }
 
@@ -92,35 +190,58 @@ impl<W: Surface> Surface for Within<W> {
 #[derive(Clone, Copy)]
 pub(super) struct Level(pub(super) f32);
 
-impl Surface for Level {
+impl Along for Level {
+    const IS_CHEAP: bool = true;
+
     #[inline(always)]
-    fn at(&self, _i: f32x4) -> f32x4 {
-        f32x4::splat(self.0)
+    fn over<S: Simd>(&self, s: f32x8<S>, _d: f32x8<S>) -> f32x8<S> {
+        f32x8::splat(s.simd, self.0)
     }
 
     #[inline(always)]
-    fn least(&self, _cells: usize) -> f32 {
-        self.0
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        f32x8::splat(nearest.simd, self.0)
     }
 }
 
 /// A level bottom: the lowest end of what touches.
 #[derive(Clone, Copy)]
-pub(super) struct Flat(pub(super) Sloped);
+pub(super) struct Flat {
+    pub(super) own: Sloped,
+    /// 1 downhill, -1 uphill. No branch: which of them comes next is not known before.
+    pub(super) sense: f32,
+}
 
-impl Surface for Flat {
+impl Along for Flat {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let own = &self.0;
-        let (s, d) = own.at.of(i);
-        let half = own.half(d);
-        let half = if own.rise < 0.0 { half } else { -half };
-        own.at.clamped(s + half) * own.rise + own.floor
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
+        let own = &self.own;
+        own.clamped(s + own.half(d) * self.sense) * own.rise + own.floor
     }
 
     #[inline(always)]
-    fn least(&self, _cells: usize) -> f32 {
-        self.0.bottom()
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        f32x8::splat(nearest.simd, self.own.bottom())
+    }
+}
+
+/// The same of a wide tool on a short way: most cells are below its low end.
+#[derive(Clone, Copy)]
+pub(super) struct WideFlat(pub(super) Flat);
+
+impl Along for WideFlat {
+    #[inline(always)]
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
+        let e = self.0.own.beyond(s);
+        if (d * d + e * e).simd_le(self.0.own.outer).all_true() {
+            return f32x8::splat(s.simd, self.0.own.bottom());
+        }
+        self.0.over(s, d)
+    }
+
+    #[inline(always)]
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        f32x8::splat(nearest.simd, self.0.own.bottom())
     }
 }
 
@@ -134,12 +255,11 @@ pub(super) struct Ball {
     pub(super) ahead: f32,
 }
 
-impl Surface for Ball {
+impl Along for Ball {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
-        let (s, d) = own.at.of(i);
-        let left = f32x4::splat(self.square) - d * d;
+        let left = self.square - d * d;
         let free = not_below_zero(left).sqrt() * self.ahead;
         // Of a whole ball it is never as much as its half.
         let free = if self.square > own.outer {
@@ -148,15 +268,14 @@ impl Surface for Ball {
         } else {
             free
         };
-        let t = own.at.clamped(s - free);
+        let t = own.clamped(s - free);
         let e = s - t;
         t * own.rise + (own.floor + self.radius) - not_below_zero(left - e * e).sqrt()
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let d = self.own.at.nearest(cells);
-        self.own.bottom() + self.radius - (self.square - d * d).max(0.0).sqrt()
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        self.own.bottom() + self.radius - not_below_zero(self.square - nearest * nearest).sqrt()
     }
 }
 
@@ -167,18 +286,16 @@ pub(super) struct LevelRound {
     pub(super) round: Round,
 }
 
-impl Surface for LevelRound {
+impl Along for LevelRound {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
-        let (s, d) = self.own.at.of(i);
-        let e = s - self.own.at.clamped(s);
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
+        let e = s - self.own.clamped(s);
         self.round.height(d * d + e * e) + self.own.floor
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let d = self.own.at.nearest(cells);
-        self.own.bottom() + self.round.least(d * d)
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        self.own.bottom() + self.round.height(nearest * nearest)
     }
 }
 
@@ -189,29 +306,25 @@ pub(super) struct SlopedRound {
     pub(super) round: Round,
 }
 
-impl Surface for SlopedRound {
+impl Along for SlopedRound {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
-        let (s, d) = own.at.of(i);
         // Below the level part of the low end, and beyond it, none of the way is as low.
-        let low = if own.rise < 0.0 { own.at.length } else { 0.0 };
-        let e = s - low;
-        let square = d * d + e * e;
-        let beyond = if own.rise < 0.0 { e } else { -e };
-        let inner = f32x4::splat(self.round.inner * self.round.inner);
-        if (beyond.cmp_ge(f32x4::ZERO) | square.cmp_le(inner)).all() {
+        let beyond = own.beyond(s);
+        let square = d * d + beyond * beyond;
+        let inner = self.round.inner * self.round.inner;
+        if (beyond.simd_ge(0.0) | square.simd_le(inner)).all_true() {
             return self.round.height(square) + own.bottom();
         }
-        let t = own.at.clamped(s - self.round.touch(d, own.rise));
+        let t = own.clamped(s - self.round.touch(d, own.rise));
         let e = s - t;
         t * own.rise + self.round.height(d * d + e * e) + own.floor
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let d = self.own.at.nearest(cells);
-        self.own.bottom() + self.round.least(d * d)
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        self.own.bottom() + self.round.height(nearest * nearest)
     }
 }
 
@@ -229,68 +342,61 @@ pub(super) struct Cone {
     pub(super) sense: f32,
 }
 
-impl Surface for Cone {
+impl Along for Cone {
     #[inline(always)]
-    fn at(&self, i: f32x4) -> f32x4 {
+    fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
-        let (s, d) = own.at.of(i);
-        let (most, level) = (own.half(d), f32x4::splat(self.inner * self.inner) - d * d);
+        let (most, level) = (own.half(d), self.inner * self.inner - d * d);
         let free = d.abs() * self.ahead + most * self.beside;
         // Within the level part, its edge is the lowest.
         let edge = not_below_zero(level).sqrt() * self.sense;
-        let free = (free * free).cmp_lt(level).blend(edge, free);
-        let t = own.at.clamped(s - between(free, -most, most));
+        let free = (free * free).simd_lt(level).select(edge, free);
+        let t = own.clamped(s - between(free, -most, most));
         let e = s - t;
         t * own.rise + not_below_zero((d * d + e * e).sqrt() - self.inner) * self.slope + own.floor
     }
 
     #[inline(always)]
-    fn least(&self, cells: usize) -> f32 {
-        let beyond = (self.own.at.nearest(cells) - self.inner).max(0.0);
-        self.own.bottom() + beyond * self.slope
+    fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
+        self.own.bottom() + not_below_zero(nearest - self.inner) * self.slope
     }
 }
 
 /// Coordinates of the cells of a row along and across a line.
 #[derive(Clone, Copy)]
-pub(super) struct Across {
-    pub(super) s: f32,
-    pub(super) d: f32,
-    pub(super) ds: f32,
-    pub(super) dd: f32,
-    pub(super) length: f32,
+pub(crate) struct Across {
+    pub(crate) s: f32,
+    pub(crate) d: f32,
+    pub(crate) ds: f32,
+    pub(crate) dd: f32,
 }
 
 impl Across {
+    /// The same of a cell so many rows and columns further.
     #[inline(always)]
-    pub(super) fn of(&self, i: f32x4) -> (f32x4, f32x4) {
+    pub(crate) fn shifted(&self, row: usize, column: usize) -> Across {
+        let (row, column) = (row as i32 as f32, column as i32 as f32);
+        Across {
+            s: self.s - row * self.dd + column * self.ds,
+            d: self.d + row * self.ds + column * self.dd,
+            ..*self
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn of<S: Simd>(&self, i: f32x8<S>) -> (f32x8<S>, f32x8<S>) {
         (i * self.ds + self.s, i * self.dd + self.d)
     }
-
-    /// The least distance of the first so many cells from the line, which goes on at both ends.
-    #[inline(always)]
-    pub(super) fn nearest(&self, cells: usize) -> f32 {
-        let last = self.d + (cells as i32 as f32 - 1.0) * self.dd;
-        let (one, other) = (self.d.abs(), last.abs());
-        // Not by `f32::min`, which asks for what is no number.
-        let least = if one < other { one } else { other };
-        if self.d * last <= 0.0 { 0.0 } else { least }
-    }
-
-    #[inline(always)]
-    pub(super) fn clamped(&self, t: f32x4) -> f32x4 {
-        between(t, f32x4::ZERO, f32x4::splat(self.length))
-    }
 }
 
 #[inline(always)]
-pub(crate) fn between(value: f32x4, low: f32x4, high: f32x4) -> f32x4 {
-    value.fast_max(low).fast_min(high)
+pub(crate) fn between<S: Simd>(value: f32x8<S>, low: f32x8<S>, high: f32x8<S>) -> f32x8<S> {
+    value.max(low).min(high)
 }
 
 #[inline(always)]
-pub(crate) fn not_below_zero(value: f32x4) -> f32x4 {
-    value.fast_max(f32x4::ZERO)
+pub(crate) fn not_below_zero<S: Simd>(value: f32x8<S>) -> f32x8<S> {
+    value.max(0.0)
 }
 
 /// Round corners of a tool that is flat within.
@@ -303,38 +409,41 @@ pub(super) struct Round {
 
 impl Round {
     #[inline(always)]
-    pub(super) fn height(&self, square: f32x4) -> f32x4 {
+    pub(super) fn height<S: Simd>(&self, square: f32x8<S>) -> f32x8<S> {
         let beyond = not_below_zero(square.sqrt() - self.inner);
-        let all = f32x4::splat(self.radius * self.radius);
-        f32x4::splat(self.radius) - not_below_zero(all - beyond * beyond).sqrt()
-    }
-
-    /// The height at a distance, which is given as its square.
-    #[inline(always)]
-    pub(super) fn least(&self, square: f32) -> f32 {
-        self.height(f32x4::splat(square)).to_array()[0]
+        self.radius - not_below_zero(self.radius * self.radius - beyond * beyond).sqrt()
     }
 
     /// How far the tip is from the foot of a cell where the tool, which rises, comes lowest over it. There
     ///
     /// ```text
-    /// q / √(ρ² − q²) · √(r² − d²) / r = m,   r = inner + q
+    /// h(q) = q² · (1 + m² − d² / r²) − ρ² · m² = 0,   r = inner + q
     /// ```
+    ///
+    /// `h` is convex: a step of Newton's method from a lower bound ends above the root. The geometric mean of both bounds is
+    /// the start. After [`STEPS`] steps more, the height is at most 0.04 µm too high, for corners up to 6 mm and slopes from
+    /// 0.001 to 5.
     #[inline(always)]
-    pub(super) fn touch(&self, d: f32x4, rise: f32) -> f32x4 {
-        let (d2, m2, p2) = (d * d, f32x4::splat(rise * rise), f32x4::splat(self.radius * self.radius));
-        let inner = f32x4::splat(self.inner);
-        let mut low = not_below_zero(d.abs() - inner);
-        let mut high = f32x4::splat(self.outer - self.inner);
-        for _ in 0..HALVINGS {
-            let q = (low + high) * 0.5;
-            let (r, q2) = (inner + q, q * q);
-            let r2 = r * r;
-            let beyond = (q2 * (r2 - d2)).cmp_gt(m2 * r2 * (p2 - q2));
-            high = beyond.blend(q, high);
-            low = beyond.blend(low, q);
+    pub(super) fn touch<S: Simd>(&self, d: f32x8<S>, rise: f32) -> f32x8<S> {
+        let (d2, m2) = (d * d, rise * rise);
+        let least = self.radius * rise.abs() / (1.0 + m2).sqrt();
+        let low = (d.abs() - self.inner).max(least);
+        let mut q = (low * self.newton(low, low, d2, m2)).sqrt();
+        for _ in 0..STEPS {
+            q = self.newton(q, low, d2, m2);
         }
-        let r = inner + (low + high) * 0.5;
+        let r = q + self.inner;
         not_below_zero(r * r - d2).sqrt() * if rise < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// One step of Newton's method for [`Round::touch`].
+    #[inline(always)]
+    fn newton<S: Simd>(&self, q: f32x8<S>, low: f32x8<S>, d2: f32x8<S>, m2: f32) -> f32x8<S> {
+        let per_r = 1.0 / (q + self.inner);
+        let (part, d2_part) = (q * per_r, d2 * q * per_r);
+        let h = q * q * (1.0 + m2) - d2_part * part - self.radius * self.radius * m2;
+        let half_slope = q * (1.0 + m2) - d2_part * (1.0 - part) * per_r;
+        // The slope is 0 only where rounding has lost it. The surface is nearly level there: any place will do.
+        (q - h * 0.5 / half_slope.max(f32::MIN_POSITIVE)).max(low).min(self.outer - self.inner)
     }
 }

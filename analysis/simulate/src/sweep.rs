@@ -12,12 +12,15 @@
 
 use std::ops::Range;
 
+use fearless_simd::{Select, Simd, SimdBase, SimdInt, dispatch, f32x8, i32x8};
+
 use crate::band::{Band, Form};
 use crate::level_arc::{WIDEST, level_arc};
 use crate::moves::Way;
-use crate::rows::Rows;
+use crate::rows::{Done, Rows};
 use crate::surface::{
-    Across, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Sloped, SlopedRound, Surface, Within,
+    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Row, Sloped, SlopedRound,
+    WideFlat, Within, indices, level,
 };
 use crate::tool::Cutter;
 
@@ -30,30 +33,40 @@ const PIECE: f64 = 32.0;
 /// Goes along a move of the tip.
 ///
 /// `continues`: the tool has cut already what it cuts where it stands at the start.
+#[inline(always)]
 pub(crate) fn sweep(
     cells: &mut impl Cells,
     cutter: &Cutter,
-    [from, to]: [[f64; 3]; 2],
+    [from, to]: [&[f64; 3]; 2],
     way: &Way,
     continues: bool,
 ) {
     match way {
         Way::Away => {}
         Way::Rapid | Way::Feed => straight(cells, cutter, [from, to], continues),
-        Way::Arc { plane: [0, 1, 2], centre, sweep }
-            if from[2] == to[2] && distance([from[0], from[1]], *centre) < WIDEST =>
-        {
-            for band in cutter.bands() {
-                level_arc(cells, band, [from, to], *centre, *sweep);
-            }
-        }
         Way::Arc { plane, centre, sweep } => {
-            let (mut last, mut continues) = (from, continues);
-            for at in chords(from, to, plane.map(usize::from), *centre, *sweep) {
-                straight(cells, cutter, [last, at], continues);
-                (last, continues) = (at, true);
-            }
+            arc(cells, cutter, [from, to], (plane, *centre, *sweep), continues);
         }
+    }
+}
+
+fn arc(
+    cells: &mut impl Cells,
+    cutter: &Cutter,
+    [from, to]: [&[f64; 3]; 2],
+    (plane, centre, sweep): (&[u8; 3], [f64; 2], f64),
+    continues: bool,
+) {
+    if *plane == [0, 1, 2] && from[2] == to[2] && distance([from[0], from[1]], centre) < WIDEST {
+        for band in cutter.bands() {
+            level_arc(cells, band, [*from, *to], centre, sweep);
+        }
+        return;
+    }
+    let (mut last, mut continues) = (*from, continues);
+    for at in chords(*from, *to, plane.map(usize::from), centre, sweep) {
+        straight(cells, cutter, [&last, &at], continues);
+        (last, continues) = (at, true);
     }
 }
 
@@ -86,19 +99,27 @@ pub(crate) fn chords(
     })
 }
 
-fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [[f64; 3]; 2], continues: bool) {
-    let pieces = (distance([from[0], from[1]], [to[0], to[1]]) / PIECE).ceil().clamp(1.0, 1e6) as usize;
-    let point = |i: usize| match i == pieces {
-        true => to,
-        false => {
-            std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * (i as f64 / pieces as f64))
-        }
-    };
-    for i in 0..pieces {
-        let line = Line::new([point(i), point(i + 1)], continues || i > 0);
-        for band in cutter.bands() {
-            line.sweep(cells, band);
-        }
+fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [&[f64; 3]; 2], continues: bool) {
+    let length = distance([from[0], from[1]], [to[0], to[1]]);
+    if length <= PIECE {
+        return piece(cells, cutter, [from, to], length, continues);
+    }
+    let pieces = (length / PIECE).ceil().min(1e6);
+    let mut last = *from;
+    for i in 1..=pieces as usize {
+        let part = i as f64 / pieces;
+        let end =
+            if part < 1.0 { [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part) } else { *to };
+        piece(cells, cutter, [&last, &end], length / pieces, continues || i > 1);
+        last = end;
+    }
+}
+
+#[inline]
+fn piece(cells: &mut impl Cells, cutter: &Cutter, ends: [&[f64; 3]; 2], length: f64, continues: bool) {
+    let line = Line::new(ends, length, continues);
+    for band in cutter.bands() {
+        line.sweep(cells, band);
     }
 }
 
@@ -122,21 +143,22 @@ struct Line {
 }
 
 impl Line {
-    fn new([from, to]: [[f64; 3]; 2], continues: bool) -> Line {
+    fn new([from, to]: [&[f64; 3]; 2], length: f64, continues: bool) -> Line {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
-        let length = distance([from[0], from[1]], [to[0], to[1]]);
         if length < 1e-9 {
             // Straight down or up: what counts is the lower end.
             let low = [from[0], from[1], from[2].min(to[2])];
             let continues = continues && to[2] >= from[2];
             return Line { from: low, to: low, along: [1.0, 0.0], length: 0.0, rise: 0.0, continues };
         }
+        // One division: each takes as long as the rest of this.
+        let per_length = 1.0 / length;
         Line {
-            from,
-            to,
-            along: [x / length, y / length],
+            from: *from,
+            to: *to,
+            along: [x * per_length, y * per_length],
             length,
-            rise: (to[2] - from[2]) / length,
+            rise: (to[2] - from[2]) * per_length,
             continues,
         }
     }
@@ -145,24 +167,32 @@ impl Line {
     fn sweep(&self, cells: &mut impl Cells, band: &Band) {
         let floor = (self.from[2] + band.base) as f32;
         let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
-        let own = |at| Sloped { at, floor, rise, outer };
+        let own = Sloped { length: self.length as f32, floor, rise, outer };
         // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
-        let done = (self.continues && rise >= 0.0).then_some(0.0);
+        let is_cut = self.continues && rise >= 0.0;
+        let around = |radius: f64| Done { around: if is_cut { radius as f32 } else { -1.0 }, ..Done::NONE };
+        let done = if is_cut { Done { along: 0.0, ..Done::NONE } } else { Done::NONE };
+        let flat = Flat { own, sense: if rise < 0.0 { 1.0 } else { -1.0 } };
         match band.form {
-            Form::Flat if rise == 0.0 => self.rows(cells, band, done, |_| Level(floor)),
-            Form::Flat => self.rows(cells, band, done, |at| Flat(own(at))),
+            Form::Flat if rise == 0.0 => self.rows(cells, band, around(band.outer), Level(floor)),
+            Form::Flat if band.outer > WIDE * cells.grid().cell => {
+                self.rows(cells, band, around(band.outer), WideFlat(flat))
+            }
+            Form::Flat => self.rows(cells, band, around(band.outer), flat),
             Form::Round(radius) if band.inner == 0.0 => {
                 let ahead = rise / (1.0 + rise * rise).sqrt();
                 let (radius, square) = (radius as f32, (radius * radius) as f32);
                 // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
-                let done = self.continues.then_some(radius * ahead.min(0.0));
-                self.rows(cells, band, done, |at| Ball { own: own(at), radius, square, ahead });
+                let along = if self.continues { radius * ahead.min(0.0) } else { f32::NEG_INFINITY };
+                let done = Done { along, ..Done::NONE };
+                self.rows(cells, band, done, Ball { own, radius, square, ahead });
             }
             Form::Round(radius) => {
                 let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
+                let done = Done { around: around(band.inner).around, ..done };
                 match rise == 0.0 {
-                    true => self.rows(cells, band, done, |at| LevelRound { own: own(at), round }),
-                    false => self.rows(cells, band, done, |at| SlopedRound { own: own(at), round }),
+                    true => self.rows(cells, band, done, LevelRound { own, round }),
+                    false => self.rows(cells, band, done, SlopedRound { own, round }),
                 }
             }
             Form::Cone(slope) => {
@@ -171,77 +201,100 @@ impl Line {
                 let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
                 let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
                 let beside = if steep { sense } else { 0.0 };
-                let cone = |at| Cone { own: own(at), slope, inner, ahead, beside, sense };
-                self.rows(cells, band, done, cone);
+                self.rows(cells, band, done, Cone { own, slope, inner, ahead, beside, sense });
             }
         }
     }
 
-    /// Goes over the rows that a band touches. `done`: cells up to so far along the line are cut already.
+    /// Goes over the rows that a band touches. `done` is known to be cut already.
+    ///
+    /// Each surface is compiled on its own: fewer values wait in memory for a register than in one large function.
+    fn rows(&self, cells: &mut impl Cells, band: &Band, done: Done, along: impl Along) {
+        dispatch!(level(), simd => self.rows_by(simd, cells, band.outer, done, along));
+    }
+
     #[inline(always)]
-    fn rows<W: Surface>(
-        &self,
-        cells: &mut impl Cells,
-        band: &Band,
-        done: Option<f32>,
-        way: impl Fn(Across) -> W,
-    ) {
+    fn rows_by<S: Simd, C: Cells>(&self, simd: S, cells: &mut C, radius: f64, done: Done, along: impl Along) {
         let grid = cells.grid();
-        let radius = band.outer;
-        let [columns, rows] = [0, 1].map(|axis| {
-            let [one, other] = [self.from[axis], self.to[axis]];
-            grid.between(axis, least(one, other) - radius, most(one, other) + radius)
-        });
+        let [[x0, y0, _], [x1, y1, _]] = [self.from, self.to];
+        let low = [least(x0, x1) - radius, least(y0, y1) - radius];
+        let high = [most(x0, x1) + radius, most(y0, y1) + radius];
+        let (columns, rows) = (grid.between(0, low[0], high[0]), grid.between(1, low[1], high[1]));
         if columns.is_empty() || rows.is_empty() {
             return;
         }
-        let narrow = columns.len() <= NARROW;
+        let narrow = columns.len() <= C::NARROW;
         let columns = if narrow { whole_groups(columns, grid.cells[0]) } else { columns };
-        cells.reaches(&rows, &columns);
+        let mut sums = cells.begin(simd, &rows, &columns);
         let cell = grid.cell as f32;
-        let first =
-            [(0, columns.start), (1, rows.start)].map(|(axis, n)| grid.centre(axis, n) - self.from[axis]);
+        let first = [grid.centre(0, columns.start) - self.from[0], grid.centre(1, rows.start) - self.from[1]];
         let [ux, uy] = self.along;
-        // Of the first cell of a row, and by how much it grows from row to row.
+        // Of the first cell; `ds` and `dd` are the steps from column to column, and with them those from row to row.
         let (s, d) = ((first[0] * ux + first[1] * uy) as f32, (first[1] * ux - first[0] * uy) as f32);
-        let (ds, dd, length) = (cell * ux as f32, -cell * uy as f32, self.length as f32);
-        let across = |row: usize, column: usize| {
-            let (row, column) = (row as i32 as f32, column as i32 as f32);
-            Across { s: s - row * dd + column * ds, d: d + row * ds + column * dd, ds, dd, length }
-        };
-        let outer = (radius * radius) as f32;
+        let at = Across { s, d, ds: cell * ux as f32, dd: -cell * uy as f32 };
+        let length = self.length as f32;
         if narrow {
             // Asking of each cell is less work than asking where the cells of each row begin.
-            for row in 0..rows.len() {
-                let at = across(row, 0);
-                cells.row(rows.start + row, columns.clone(), Within { way: way(at), at, outer });
-            }
+            let within = Within { along, length, outer: (radius * radius) as f32 };
+            sums = cells.narrow(sums, simd, [rows, columns], at, within);
+            cells.end(sums);
             return;
         }
         let touched = Rows {
-            end: [0, 1].map(|axis| (self.to[axis] - self.from[axis]) as f32),
-            along: self.along.map(|part| part as f32),
+            end: [(self.to[0] - self.from[0]) as f32, (self.to[1] - self.from[1]) as f32],
+            along: [ux as f32, uy as f32],
             length,
             radius: radius as f32,
-            first: first.map(|at| at as f32),
+            first: [first[0] as f32, first[1] as f32],
             cell,
             columns: columns.len(),
         };
-        for four in (0..rows.len()).step_by(LANES) {
-            let all = touched.touched(four, done);
-            for (lane, row) in (four..rows.len().min(four + LANES)).enumerate() {
-                let of = all.of(lane);
-                if !of.is_empty() {
-                    let surface = way(across(row, of.start));
-                    cells.row(rows.start + row, columns.start + of.start..columns.start + of.end, surface);
+        for group in (0..rows.len()).step_by(LANES) {
+            let runs = touched.touched(simd, group, done);
+            let count = if done.around < 0.0 { 1 } else { 2 };
+            for run in &runs[..count] {
+                let run = Run::new(indices(simd, group), *run, &at, along);
+                for (lane, row) in (group..rows.len()).take(LANES).enumerate() {
+                    let (first, end) = (run.first[lane] as usize, run.end[lane] as usize);
+                    if first < end {
+                        let surface = Row { at: Across { s: run.s[lane], d: run.d[lane], ..at }, along };
+                        let columns = columns.start + first..columns.start + end;
+                        sums = cells.row(sums, simd, rows.start + row, columns, (surface, run.least[lane]));
+                    }
                 }
             }
         }
+        cells.end(sums);
     }
 }
 
-/// A box around a line with so few columns is worked on as a whole.
-const NARROW: usize = 12;
+/// One run of cells in each of a group of rows.
+struct Run {
+    first: [i32; LANES],
+    end: [i32; LANES],
+    /// Coordinates of the first cell along and across the line.
+    s: [f32; LANES],
+    d: [f32; LANES],
+    /// Heights that the surface does not go below.
+    least: [f32; LANES],
+}
+
+impl Run {
+    #[inline(always)]
+    fn new<S: Simd>(rows: f32x8<S>, [first, end]: [i32x8<S>; 2], at: &Across, along: impl Along) -> Run {
+        let (column, behind): (f32x8<S>, f32x8<S>) = (first.to_float(), end.to_float());
+        let s = column * at.ds - rows * at.dd + at.s;
+        let row_d = rows * at.ds + at.d;
+        let (d, last) = (column * at.dd + row_d, (behind - 1.0) * at.dd + row_d);
+        // The line goes on at both ends; where it crosses the run, its distance is 0.
+        let nearest = (d * last).simd_gt(0.0).select(d.abs().min(last.abs()), f32x8::splat(rows.simd, 0.0));
+        let least = along.least(nearest);
+        Run { first: first.into(), end: end.into(), s: s.into(), d: d.into(), least: least.into() }
+    }
+}
+
+/// Radius of a wide tool, in cells.
+const WIDE: f64 = 6.0;
 
 /// Some more columns, so that none of them is left where they are worked on in groups.
 fn whole_groups(columns: Range<usize>, all: usize) -> Range<usize> {

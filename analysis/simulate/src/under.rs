@@ -5,11 +5,11 @@
 
 use std::ops::Range;
 
-use wide::f32x4;
+use fearless_simd::Simd;
 
 use crate::map::Grid;
 use crate::moves::Way;
-use crate::surface::{COUNT, Cells, LANES, Surface};
+use crate::surface::{Across, Along, Cells, LANES, Surface, indices};
 use crate::sweep::{chords, sweep};
 use crate::tool::Cutter;
 
@@ -38,10 +38,10 @@ pub(crate) fn through(
 fn one(grid: Grid, cutter: &Cutter, ends: [[f64; 3]; 2], way: &Way, shown: &mut dyn FnMut(usize, [f32; 2])) {
     let Some(above) = &cutter.upper() else { return };
     let mut low = Lowest { grid, rows: 0..0, columns: 0..0, heights: Vec::new() };
-    sweep(&mut low, cutter, ends, way, false);
+    sweep(&mut low, cutter, ends.each_ref(), way, false);
     let mut high = Lowest { heights: vec![f32::INFINITY; low.heights.len()], ..low.clone() };
     let upside_down = ends.map(|[x, y, z]| [x, y, -z]);
-    sweep(&mut high, above, upside_down, way, false);
+    sweep(&mut high, above, upside_down.each_ref(), way, false);
     debug_assert_eq!(low.heights.len(), high.heights.len(), "both surfaces reach as far");
     for (n, (low_at, high_at)) in low.heights.iter().zip(&high.heights).enumerate() {
         let [row, column] = [n / low.columns.len(), n % low.columns.len()];
@@ -66,7 +66,11 @@ impl Cells for Lowest {
         self.grid
     }
 
-    fn reaches(&mut self, rows: &Range<usize>, columns: &Range<usize>) {
+    type Sums<S: Simd> = ();
+
+    const NARROW: usize = 0;
+
+    fn begin<S: Simd>(&mut self, _simd: S, rows: &Range<usize>, columns: &Range<usize>) {
         let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
             true => other.clone(),
             false => own.start.min(other.start)..own.end.max(other.end),
@@ -84,14 +88,25 @@ impl Cells for Lowest {
         (self.rows, self.columns, self.heights) = (rows, columns, heights);
     }
 
-    fn row(&mut self, row: usize, columns: Range<usize>, surface: impl Surface) {
+    fn row<S: Simd>(
+        &mut self,
+        _sums: (),
+        simd: S,
+        row: usize,
+        columns: Range<usize>,
+        (surface, _least): (impl Surface, f32),
+    ) {
         let start = (row - self.rows.start) * self.columns.len();
         for first in columns.clone().step_by(LANES) {
-            let new = surface.at(f32x4::splat((first - columns.start) as f32) + COUNT).to_array();
+            let new: [f32; LANES] = surface.at(indices(simd, first - columns.start)).into();
             for (column, new) in (first..columns.end).zip(new) {
                 let own = &mut self.heights[start + column - self.columns.start];
                 *own = own.min(new);
             }
         }
     }
+
+    fn end<S: Simd>(&mut self, _sums: ()) {}
+
+    fn narrow<S: Simd, W: Along>(&mut self, _: (), _: S, _: [Range<usize>; 2], _: Across, _: W) {}
 }

@@ -1,0 +1,270 @@
+//! Lowers the cells of a map to the surface that a move leaves, and compares that surface with a map.
+
+use std::ops::Range;
+
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f32x8, u32x8};
+
+use crate::cut::{Cut, Hit, TOUCH, take};
+use crate::map::{Grid, HeightMap};
+use crate::moves::{Move, Way};
+use crate::surface::{Across, Along, Cells, LANES, Row, Surface, endless, indices};
+use crate::sweep::sweep;
+use crate::tool::Cutter;
+
+/// Cuts one move with an upright tool. `number` counts moves from 1; `continues` as for [`sweep`].
+///
+/// Adds to `cut`. To return it would copy it in pieces of another size than it was written, which the processor waits for.
+#[inline(always)]
+pub(crate) fn lower(
+    map: &mut HeightMap,
+    number: u32,
+    cutter: &Cutter,
+    ends: [&[f64; 3]; 2],
+    way: &Way,
+    continues: bool,
+    cut: &mut Cut,
+) {
+    let mut cutting = Cutting { has_hollows: !map.hollows.is_empty(), map, number, cut };
+    sweep(&mut cutting, cutter, ends, way, continues);
+}
+
+/// Lowers a map.
+struct Cutting<'m> {
+    map: &'m mut HeightMap,
+    number: u32,
+    has_hollows: bool,
+    cut: &'m mut Cut,
+}
+
+impl Cutting<'_> {
+    /// As [`Cells::row`], of rows that are not worked on in whole groups.
+    #[cold]
+    #[inline(never)]
+    fn odd_row<S: Simd>(&mut self, simd: S, row: usize, columns: Range<usize>, surface: impl Surface) {
+        match self.has_hollows {
+            true => self.row_with_hollows(simd, row, columns, surface),
+            false => {
+                let begin = row * self.map.grid.cells[0] + columns.start;
+                self.last_row(simd, begin, columns.len(), surface);
+            }
+        }
+    }
+
+    /// As [`Cells::row`], cell by cell.
+    fn row_with_hollows<S: Simd>(
+        &mut self,
+        simd: S,
+        row: usize,
+        columns: Range<usize>,
+        surface: impl Surface,
+    ) {
+        let start = row * self.map.grid.cells[0];
+        for first in columns.clone().step_by(LANES) {
+            let new: [f32; LANES] = surface.at(indices(simd, first - columns.start)).into();
+            for (column, new) in (first..columns.end).zip(new) {
+                let taken = take(self.map, start + column, [new, f32::INFINITY], self.number);
+                self.cut.heights += f64::from(taken);
+                self.cut.depth = self.cut.depth.max(taken);
+            }
+        }
+    }
+
+    /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
+    fn last_row<S: Simd>(&mut self, simd: S, begin: usize, count: usize, surface: impl Surface) {
+        let (heights, last) =
+            (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
+        let mut sums = Sums::new(simd);
+        for (n, (heights, last)) in heights.chunks_mut(LANES).zip(last.chunks_mut(LANES)).enumerate() {
+            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
+            few[..heights.len()].copy_from_slice(heights);
+            of[..last.len()].copy_from_slice(last);
+            sums.lower(&mut few, &mut of, surface.at(indices(simd, n * LANES)), self.number);
+            heights.copy_from_slice(&few[..heights.len()]);
+            last.copy_from_slice(&of[..last.len()]);
+        }
+        self.end(sums);
+    }
+}
+
+/// Removed heights, mm: their sum and the greatest, in each lane.
+#[derive(Clone, Copy)]
+struct Sums<S: Simd> {
+    volumes: f32x8<S>,
+    depths: f32x8<S>,
+}
+
+impl<S: Simd> Sums<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Sums<S> {
+        Sums { volumes: f32x8::splat(simd, 0.0), depths: f32x8::splat(simd, 0.0) }
+    }
+
+    /// Lowers cells to a surface, where that is lower.
+    #[inline(always)]
+    fn lower(&mut self, heights: &mut [f32; LANES], last: &mut [u32; LANES], new: f32x8<S>, number: u32) {
+        let simd = new.simd;
+        let old = f32x8::simd_from(simd, *heights);
+        let is_lower = new.simd_lt(old);
+        // Infinity less infinity is no number: the mask drops it.
+        let depth = is_lower.select(old - new, f32x8::splat(simd, 0.0));
+        *heights = is_lower.select(new, old).into();
+        *last = is_lower.select(u32x8::splat(simd, number), u32x8::simd_from(simd, *last)).into();
+        self.volumes += depth;
+        self.depths = self.depths.max(depth);
+    }
+}
+
+impl Cells for Cutting<'_> {
+    type Sums<S: Simd> = Sums<S>;
+
+    const NARROW: usize = 2 * LANES;
+
+    #[inline(always)]
+    fn grid(&self) -> Grid {
+        self.map.grid
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&mut self, simd: S, rows: &Range<usize>, columns: &Range<usize>) -> Sums<S> {
+        self.cut.reaches(rows, columns);
+        Sums::new(simd)
+    }
+
+    #[inline(always)]
+    fn row<S: Simd>(
+        &mut self,
+        mut sums: Sums<S>,
+        simd: S,
+        row: usize,
+        columns: Range<usize>,
+        (surface, least): (impl Surface, f32),
+    ) -> Sums<S> {
+        let begin = row * self.map.grid.cells[0] + columns.start;
+        // No `Range::len`, which asks whether the range is the wrong way round.
+        let count = columns.end - columns.start;
+        let whole = begin..begin + count.next_multiple_of(LANES);
+        let heights = if self.has_hollows { None } else { self.map.heights.get_mut(whole.clone()) };
+        let Some(heights) = heights else {
+            self.odd_row(simd, row, columns, surface);
+            return sums;
+        };
+        let last = &mut self.map.last[whole];
+        let (count, mut at) = (count as i32 as f32, indices(simd, 0));
+        for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
+            // Most of what a tool goes over is cut already: the surface is looked at where it may be lower. Cells behind the
+            // last one are those of the next row, and stay.
+            if f32x8::simd_from(simd, *heights).simd_gt(least).any_true() {
+                let new = at.simd_lt(count).select(surface.at(at), endless(simd));
+                sums.lower(heights, last, new, self.number);
+            }
+            at += LANES as f32;
+        }
+        sums
+    }
+
+    #[inline(always)]
+    fn narrow<S: Simd, W: Along>(
+        &mut self,
+        mut sums: Sums<S>,
+        simd: S,
+        [rows, columns]: [Range<usize>; 2],
+        at: Across,
+        along: W,
+    ) -> Sums<S> {
+        let width = self.map.grid.cells[0];
+        if self.has_hollows || !columns.len().is_multiple_of(LANES) {
+            for row in rows.clone() {
+                let surface = Row { at: at.shifted(row - rows.start, 0), along };
+                sums = self.row(sums, simd, row, columns.clone(), (surface, f32::NEG_INFINITY));
+            }
+            return sums;
+        }
+        let least = along.least(f32x8::splat(simd, 0.0));
+        for first in columns.clone().step_by(LANES) {
+            let (s, d) = at.of(indices(simd, first - columns.start));
+            let mut number = f32x8::splat(simd, 0.0);
+            for row in rows.clone() {
+                let cell = row * width + first;
+                let heights = self.map.heights.get_mut(cell..).and_then(<[f32]>::first_chunk_mut);
+                let last = self.map.last.get_mut(cell..).and_then(<[u32]>::first_chunk_mut);
+                let (Some(heights), Some(last)) = (heights, last) else { break };
+                let old = f32x8::simd_from(simd, *heights);
+                if W::IS_CHEAP || old.simd_gt(least).any_true() {
+                    let new = along.over(s - number * at.dd, d + number * at.ds);
+                    if new.simd_lt(old).any_true() {
+                        sums.lower(heights, last, new, self.number);
+                    }
+                }
+                number += 1.0;
+            }
+        }
+        sums
+    }
+
+    /// Adds the sums of a box to the totals: single precision is accurate enough for its cells.
+    #[inline(always)]
+    fn end<S: Simd>(&mut self, sums: Sums<S>) {
+        let simd = sums.volumes.simd;
+        // First by halves: one lane after the other takes twice as long.
+        let [(one, other), (deep, deeper)] = [simd.split_f32x8(sums.volumes), simd.split_f32x8(sums.depths)];
+        let (volumes, depths): ([f32; 4], [f32; 4]) = ((one + other).into(), deep.max(deeper).into());
+        self.cut.heights += f64::from(volumes.into_iter().sum::<f32>());
+        self.cut.depth = depths.into_iter().fold(self.cut.depth, greater);
+    }
+}
+
+/// The greater of two numbers: none of them is no number, which `f32::max` must ask.
+#[inline(always)]
+fn greater(one: f32, other: f32) -> f32 {
+    if one > other { one } else { other }
+}
+
+/// How deep a part of a tool goes into a map along a move, where it does.
+pub(crate) fn probe(map: &HeightMap, part: &Cutter, from: [f64; 3], own: &Move) -> Option<Hit> {
+    let mut probing = Probing { map, worst: None };
+    sweep(&mut probing, part, [&from, &own.end], &own.way, false);
+    probing.worst
+}
+
+/// Looks at a map.
+struct Probing<'m> {
+    map: &'m HeightMap,
+    worst: Option<Hit>,
+}
+
+impl Cells for Probing<'_> {
+    fn grid(&self) -> Grid {
+        self.map.grid
+    }
+
+    type Sums<S: Simd> = ();
+
+    const NARROW: usize = 0;
+
+    fn begin<S: Simd>(&mut self, _simd: S, _rows: &Range<usize>, _columns: &Range<usize>) {}
+
+    fn row<S: Simd>(
+        &mut self,
+        _sums: (),
+        simd: S,
+        row: usize,
+        columns: Range<usize>,
+        (surface, _least): (impl Surface, f32),
+    ) {
+        let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
+        for first in columns.clone().step_by(LANES) {
+            let tools: [f32; LANES] = surface.at(indices(simd, first - columns.start)).into();
+            for (column, tool) in (first..columns.end).zip(tools) {
+                let depth = self.map.heights[start + column] - tool;
+                if depth > self.worst.map_or(TOUCH, |worst| worst.depth) {
+                    let place = [grid.centre(0, column), grid.centre(1, row), f64::from(tool)];
+                    self.worst = Some(Hit { place, depth });
+                }
+            }
+        }
+    }
+
+    fn end<S: Simd>(&mut self, _sums: ()) {}
+
+    fn narrow<S: Simd, W: Along>(&mut self, _: (), _: S, _: [Range<usize>; 2], _: Across, _: W) {}
+}
