@@ -1,8 +1,11 @@
 //! A profile as its control: the dictionary of its dialect with what the profile states put in.
 //!
 //! A fact at power-on that is stated always holds; the shop's choices that decide how words are
-//! written are rows of the dictionary too. A derived dictionary is made once for each use of a
-//! profile and lives as long as the process.
+//! written are rows of the dictionary too. A derived dictionary is made once for all profiles that
+//! state the same of their control, and lives as long as the process.
+
+use std::collections::HashMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use ncc_dialects::{Dialect, ElsewhereRow, Meaning, PowerOnFact, Quantity, Settings};
 
@@ -40,7 +43,19 @@ impl Profile {
         settings
     }
 
+    /// The dictionary with what the profile states. A server derives it for each request: all of them have one.
     fn derived(&self) -> &'static Dialect {
+        static MADE: LazyLock<Mutex<HashMap<String, &'static Dialect>>> = LazyLock::new(Mutex::default);
+        let names = self.values().map(|(name, _)| name).collect::<Vec<_>>();
+        let schema = &self.schema;
+        // Dictionaries live as long as the process, so each is known by its address.
+        let dialect = std::ptr::from_ref(self.dialect);
+        let stated = format!("{:?}", (dialect, &schema.power_on, &schema.m_code, names, &schema.emit));
+        let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+        made.entry(stated).or_insert_with(|| Box::leak(Box::new(self.derive())))
+    }
+
+    fn derive(&self) -> Dialect {
         let mut dialect = self.dialect.clone();
         let (said, facts) = (&self.schema.power_on, &mut dialect.power_on);
         put(&mut facts.units, &said.units, Some);
@@ -74,7 +89,7 @@ impl Profile {
             dialect.comment.upper_ascii = true;
             dialect.comment.signs = ".,=_-+/*:".to_owned();
         }
-        Box::leak(Box::new(dialect))
+        dialect
     }
 
     /// The shop's choices for emitted programs.
@@ -117,5 +132,23 @@ fn put<T: Copy, U>(row: &mut Option<PowerOnFact<U>>, said: &Fact<T>, as_row: imp
             of_the_machine: false,
             source: "machine profile".to_owned(),
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dictionary_is_derived_once() {
+        for own in crate::shipped() {
+            let again =
+                Profile::parse(crate::shipped_text(own.id()).expect("a text"), &ncc_dialects::builtin);
+            let again = again.expect("a profile");
+            assert!(std::ptr::eq(own.derived(), again.derived()), "{}", own.id());
+            let mut other = again.clone();
+            other.schema.emit.blanks.value = Some(!own.derived().block.blanks);
+            assert_eq!(other.derived().block.blanks, !own.derived().block.blanks, "{}", own.id());
+        }
     }
 }
