@@ -2,9 +2,9 @@
 //!
 //! | addresses | what |
 //! |---|---|
-//! | `/transpiler`, `/persistence`, `/output` | the services of the case study ([`case_study`]) |
-//! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations ([`api`]) |
-//! | `/api/v1/machines` | profiles of machines ([`machines`]) |
+//! | `/transpiler`, `/persistence`, `/output` | the services of the case study |
+//! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations |
+//! | `/api/v1/machines` | profiles of machines |
 //!
 //! One process has all of them ([`Part::All`]), or one of the case study's three, which finds PERSISTENCE over HTTP. No
 //! state is in a process but the store's connections. Programs are read from requests alone: no file of the server is
