@@ -1,5 +1,6 @@
 //! The one way to the database, whichever it is.
 
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use r2d2::{ManageConnection, Pool};
@@ -36,7 +37,7 @@ impl Database {
         // A first connection tells what is wrong; the pool would try again until its patience ends.
         match place {
             Place::File(path) => {
-                let file = File { path: path.clone(), patience: PATIENCE };
+                let file = File { path: path.clone(), patience: PATIENCE, first: OnceLock::new() };
                 sqlite::migrate(&mut file.connect()?)?;
                 Ok(Database::File(pool(file)?))
             }

@@ -93,14 +93,15 @@ impl Store {
         programs: &[(String, i64)],
     ) -> Result<(), StoreError> {
         self.database.write(|to| {
+            let made = now();
             to.change(
                 "INSERT INTO job (id, asked, author, made, ended) VALUES ($1, $2, $3, $4, $5)",
-                values![id, asked, author, now(), programs.is_empty().then(now)],
+                values![id, asked, author, made, programs.is_empty().then_some(made)],
             )?;
             for (number, (program, revision)) in programs.iter().enumerate() {
                 to.change(
-                    "INSERT INTO task (job, number, program, revision, state) VALUES ($1, $2, $3, $4, 'waiting')",
-                    values![id, number as i64 + 1, program, *revision],
+                    "INSERT INTO task (job, number, made, program, revision, state) VALUES ($1, $2, $3, $4, $5, 'waiting')",
+                    values![id, number as i64 + 1, made, program, *revision],
                 )?;
             }
             Ok(())
@@ -111,30 +112,36 @@ impl Store {
     pub(crate) fn claim(&self, worker: &str, seconds: i64) -> Result<Option<Task>, StoreError> {
         // Most of the time there is none, and nobody waits for the writer.
         let is_open = self.database.read(|from| {
-            let sql =
-                "SELECT number FROM task WHERE state = 'waiting' OR state = 'running' AND until < $1 LIMIT 1";
-            Ok(from.maybe_row(sql, values![now()])?.is_some())
+            let waits =
+                from.maybe_row("SELECT number FROM task WHERE state = 'waiting' LIMIT 1", values![])?;
+            let left = "SELECT number FROM task WHERE state = 'running' AND until < $1 LIMIT 1";
+            Ok(waits.is_some() || from.maybe_row(left, values![now()])?.is_some())
         })?;
         if !is_open {
             return Ok(None);
         }
         self.database.write(|to| {
+            let time = now();
+            // A task of a cancelled job does not wait, but a worker that has died may have left one.
             let left = to.read(
                 "UPDATE task SET state = 'cancelled' WHERE state = 'running' AND until < $1
                  AND job IN (SELECT id FROM job WHERE is_cancelled) RETURNING job",
-                values![now()],
+                values![time],
                 |mut row| row.text(0),
             )?;
             left.iter().try_for_each(|job| end_job(to, job))?;
-            let time = now();
-            let claimed = to.maybe_row(
-                "UPDATE task SET state = 'running', worker = $1, until = $2 WHERE (job, number) IN (
-                     SELECT t.job, t.number FROM task t JOIN job j ON j.id = t.job
-                     WHERE NOT j.is_cancelled AND (t.state = 'waiting' OR t.state = 'running' AND t.until < $3)
-                     ORDER BY j.made, t.job, t.number LIMIT 1)
-                 RETURNING job, number, program, revision",
-                values![worker, time + seconds, time],
-            )?;
+            let claim = |one: &str| {
+                let sql = format!(
+                    "UPDATE task SET state = 'running', worker = $1, until = $2 WHERE (job, number) IN (
+                         SELECT job, number FROM task WHERE {one} LIMIT 1)
+                     RETURNING job, number, program, revision"
+                );
+                to.maybe_row(&sql, values![worker, time + seconds, time])
+            };
+            let claimed = match claim("state = 'running' AND until < $3 ORDER BY until")? {
+                Some(row) => Some(row),
+                None => claim("state = 'waiting' ORDER BY made, job, number")?,
+            };
             let Some(mut row) = claimed else { return Ok(None) };
             let job = row.text(0)?;
             let mut of = to.row("SELECT asked, author FROM job WHERE id = $1", values![&job])?;

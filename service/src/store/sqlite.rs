@@ -5,11 +5,13 @@
 //! (`application_id`), so that no other file is changed by mistake.
 
 use std::path::PathBuf;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use r2d2::ManageConnection;
 use rusqlite::types::{ToSqlOutput, ValueRef};
 use rusqlite::{CachedStatement, Connection, ErrorCode, OpenFlags, ToSql, TransactionBehavior};
+use same_file::Handle;
 
 use super::StoreError;
 use super::migrations::{self, STEPS};
@@ -23,6 +25,17 @@ pub(super) struct File {
     pub(super) path: PathBuf,
     /// How long a writer waits for its turn.
     pub(super) patience: Duration,
+    /// The file as it was first opened. Where another one has taken its place, connections to both would mix two databases.
+    pub(super) first: OnceLock<Handle>,
+}
+
+impl File {
+    /// Whether the file is still the one that was opened first.
+    fn is_the_same(&self) -> Result<bool, rusqlite::Error> {
+        let cannot = |error: std::io::Error| rusqlite::Error::ToSqlConversionFailure(error.into());
+        let now = Handle::from_path(&self.path).map_err(cannot)?;
+        Ok(*self.first.get_or_init(|| now) == Handle::from_path(&self.path).map_err(cannot)?)
+    }
 }
 
 impl ManageConnection for File {
@@ -41,7 +54,10 @@ impl ManageConnection for File {
         connection.pragma_update(None, "synchronous", "FULL")?;
         connection.pragma_update(None, "foreign_keys", true)?;
         connection.set_prepared_statement_cache_capacity(128);
-        Ok(connection)
+        match self.is_the_same()? {
+            true => Ok(connection),
+            false => Err(rusqlite::Error::InvalidPath(self.path.clone())),
+        }
     }
 
     fn is_valid(&self, connection: &mut Connection) -> Result<(), rusqlite::Error> {
@@ -149,5 +165,23 @@ impl From<rusqlite::Error> for StoreError {
             Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => StoreError::Busy,
             _ => StoreError::Database(error.to_string()),
         }
+    }
+}
+
+// Windows does not move a file that is open.
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_file_in_its_place_is_not_opened() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.sqlite");
+        let file = File { path: path.clone(), patience: Duration::from_secs(1), first: OnceLock::new() };
+        let first = file.connect().expect("a file");
+        file.connect().expect("the same file");
+        drop(first);
+        std::fs::rename(&path, folder.path().join("moved.sqlite")).expect("moved");
+        assert!(file.connect().is_err());
     }
 }

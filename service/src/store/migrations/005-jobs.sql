@@ -10,6 +10,7 @@ CREATE TABLE job (
 CREATE TABLE task (
     job TEXT NOT NULL REFERENCES job (id),
     number BIGINT NOT NULL,
+    made BIGINT NOT NULL,
     program TEXT NOT NULL REFERENCES program (id),
     revision BIGINT NOT NULL,
     state TEXT NOT NULL,
@@ -18,4 +19,6 @@ CREATE TABLE task (
     result TEXT NOT NULL DEFAULT '',
     PRIMARY KEY (job, number)
 );
-CREATE INDEX task_open ON task (state, until) WHERE state IN ('waiting', 'running');
+CREATE INDEX task_waiting ON task (made, job, number) WHERE state = 'waiting';
+CREATE INDEX task_running ON task (until) WHERE state = 'running';
+CREATE INDEX task_open ON task (job) WHERE state IN ('waiting', 'running');
