@@ -44,7 +44,7 @@ impl Database {
             Place::Server(address) => {
                 let server = Server::at(address, PATIENCE)?;
                 let first = server.connect();
-                let cannot = |error: ::postgres::Error| StoreError::Database(error.to_string());
+                let cannot = |error| StoreError::Database(postgres::words(&error));
                 postgres::migrate(&mut first.map_err(cannot)?)?;
                 Ok(Database::Server(pool(server)?))
             }

@@ -33,7 +33,8 @@ pub(super) struct Server {
 impl Server {
     /// The one at an address: `postgres://user:password@host/database`.
     pub(super) fn at(address: &str, patience: Duration) -> Result<Server, StoreError> {
-        let mut config: Config = address.parse().map_err(StoreError::of_postgres)?;
+        let wrong = |error: postgres::Error| StoreError::Database(words(&error));
+        let mut config: Config = address.parse().map_err(wrong)?;
         config.connect_timeout(patience).application_name("ncc serve");
         Ok(Server { config })
     }
@@ -181,8 +182,17 @@ impl ToSql for Value {
     to_sql_checked!();
 }
 
-impl StoreError {
-    fn of_postgres(error: postgres::Error) -> StoreError {
+/// What the server says, or why there is none to say anything.
+pub(super) fn words(error: &postgres::Error) -> String {
+    let own = error.as_db_error().map(|said| said.message().to_owned());
+    own.unwrap_or_else(|| match error.source() {
+        Some(source) => format!("{error}: {source}"),
+        None => error.to_string(),
+    })
+}
+
+impl From<postgres::Error> for StoreError {
+    fn from(error: postgres::Error) -> StoreError {
         let state = error.code();
         if state == Some(&SqlState::UNIQUE_VIOLATION) {
             return StoreError::Exists;
@@ -198,13 +208,7 @@ impl StoreError {
             });
         match gone {
             true => StoreError::Busy,
-            false => StoreError::Database(error.to_string()),
+            false => StoreError::Database(words(&error)),
         }
-    }
-}
-
-impl From<postgres::Error> for StoreError {
-    fn from(error: postgres::Error) -> StoreError {
-        StoreError::of_postgres(error)
     }
 }
