@@ -11,11 +11,11 @@ use ncc_driver::problem::{BrokenOff, Exit, Problem, RequestFault};
 use ncc_driver::render::json::entries;
 use ncc_driver::render::{About, Loudness, human};
 use ncc_driver::side::Side;
+use ncc_driver::time::assumed;
 use ncc_driver::time::drive::{Course, Plan, Stage, Unwatched, drive};
 use ncc_driver::time::payload::{Fields, Header, Look, Shape, Writer};
 use ncc_driver::time::summary::{Report, Timing};
-use ncc_driver::time::tally::{Tallier, Tally};
-use ncc_driver::time::{assumed, columns};
+use ncc_driver::time::tally::Tallier;
 use ncc_machines::Profile;
 use ncc_time::{AssumedFact, Model, ToolChangeOn};
 
@@ -73,7 +73,7 @@ pub(crate) fn timed(asked: &Time, files: &Files, messages: &mut Buffer) -> Resul
     let cannot = |e: io::Error| Problem::file("time", &asked.file, &e);
     let Ready { side: Side { mut source, job }, profile, model } = Ready::of(asked, files, messages)?;
     let profile = profile.as_deref();
-    let (plan, _) = planned(asked, &job, profile, model);
+    let (plan, unstated) = planned(asked, &job, profile, model);
     let (fields, machine_name) = match asked.form {
         Form::Document => (Fields::Full, profile.map_or("", |profile| &profile.schema.title)),
         Form::Printed => (Fields::Printed(job.from.dialect), profile.map_or("", |profile| profile.id())),
@@ -97,6 +97,8 @@ pub(crate) fn timed(asked: &Time, files: &Files, messages: &mut Buffer) -> Resul
     if asked.findings {
         let found = entries(&mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
         outputs.push(("findings", serde_json::to_vec(&found).unwrap_or_default()));
+        let assumed = assumptions(&plan, profile, &unstated, &course);
+        outputs.push(("assumed", serde_json::to_vec(&assumed).unwrap_or_default()));
     }
     Ok((if course.refused { Exit::Refused } else { Exit::Done }, outputs))
 }
@@ -120,19 +122,8 @@ pub(crate) fn summed_up(
     if course.refused {
         return Ok((Exit::Refused, Vec::new()));
     }
-    let mut timing = Timing {
-        prog_name: asked.file.clone(),
-        dialect: job.from.dialect.id.clone(),
-        blocks: course.blocks,
-        functions: 0,
-        clock: [plan.start_time, course.end].map(columns::micro),
-        bounds: course.bounds.map(|bounds| bounds.map(columns::micro)),
-        assumed: assumptions(&plan, profile, &unstated, &course),
-        total: Tally::default(),
-        tools: Vec::new(),
-        operations: Vec::new(),
-    };
-    timing.take(tallier.finish());
+    let assumed = assumptions(&plan, profile, &unstated, &course);
+    let timing = Timing::of(&asked.file, &plan, &course, assumed, tallier.finish());
     let report = Report {
         ncc_time: 1,
         ncc_version: env!("CARGO_PKG_VERSION"),
@@ -149,7 +140,7 @@ pub(crate) fn summed_up(
     Ok((Exit::Done, vec![("document", document), ("tools", tools)]))
 }
 
-/// What the times assume of machine and control.
+/// Facts of machine and control that the times assume, a line each.
 fn assumptions(
     plan: &Plan,
     profile: Option<&Profile>,

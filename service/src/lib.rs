@@ -14,6 +14,7 @@
 
 mod api;
 mod case_study;
+mod compiler;
 mod http;
 mod log;
 mod machines;

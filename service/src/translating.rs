@@ -6,10 +6,12 @@
 
 use std::collections::BTreeMap;
 
+use ncc_driver::review::verify::hashes::built_in;
 use ncc_engine::Engine;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::compiler::{self, DONE, put_machine, refusal};
 use crate::http::Problem;
 use crate::store::{Outcome, Revision, State, Store, StoreError, Translation, Wanted, digest};
 
@@ -18,11 +20,6 @@ const FOLDER: u64 = 64 << 20;
 
 /// Programs of a folder that are looked through, at most.
 const PROGRAMS: u32 = 10_000;
-
-/// Exit codes of the engine.
-const DONE: u8 = 0;
-const USAGE: u8 = 2;
-const VERIFICATION_FAILED: u8 = 3;
 
 /// The code of a called program that is not there.
 const NOT_THERE: &str = "NC0217";
@@ -110,16 +107,15 @@ pub(crate) fn profile(store: &Store, name: &str) -> Result<(Option<String>, Stri
     }
 }
 
-/// A digest of the dictionary of a dialect, with those that it builds on.
+/// A digest of the dictionary of a dialect, with its base dictionaries.
 fn dictionary(id: &str) -> Option<String> {
-    let mut texts: Vec<&[u8]> = Vec::new();
+    let mut hashes = Vec::new();
     let mut next = Some(ncc_dialects::builtin(id)?);
     while let Some(dialect) = next {
-        let at = ncc_dialects::builtin_ids().position(|own| own == dialect.id);
-        texts.extend(at.and_then(ncc_dialects::builtin_text).map(|(_, text)| text.as_bytes()));
+        hashes.extend(built_in(&dialect.id).map(|text| text.sha256));
         next = dialect.base.as_deref().and_then(ncc_dialects::builtin);
     }
-    Some(digest(&texts))
+    Some(digest(&hashes.iter().map(String::as_bytes).collect::<Vec<_>>()))
 }
 
 /// Gathers what goes in.
@@ -253,32 +249,28 @@ fn target(asked: &Asked) -> String {
     [&asked.machine_to, &asked.to].map(|name| name.clone().unwrap_or_default()).join(" ").trim().to_owned()
 }
 
-/// An engine with the texts of a translation.
-fn engine(ready: &Ready) -> Engine {
+/// An engine with the program and the profiles of both machines, and the names of both machines there.
+fn engine(ready: &Ready) -> (Engine, [Option<String>; 2]) {
     let mut engine = Engine::default();
-    for (name, text) in &ready.profiles {
-        engine.put(&machine(ready, name), text.clone().into_bytes());
-    }
     engine.put(&ready.of.details.name, ready.text.clone());
-    engine
-}
-
-/// The name of a machine among the files of an engine, in which it stands beside programs.
-fn machine(ready: &Ready, name: &str) -> String {
-    if ready.profiles.contains_key(name) { format!("machine {name}") } else { name.to_owned() }
+    let machines = [&ready.asked.machine_from, &ready.asked.machine_to].map(|name| {
+        let name = name.as_ref()?;
+        Some(put_machine(&mut engine, name, ready.profiles.get(name).map(String::as_str)))
+    });
+    (engine, machines)
 }
 
 /// Has the engine translate; where a program that is called is not in the text, again with those of its folder.
 fn run(store: &Store, ready: &mut Ready) -> Result<Made, Problem> {
     let asked = &ready.asked;
-    let named = |name: &Option<String>| name.as_ref().map(|name| machine(ready, name));
+    let (mut engine, [machine_from, machine_to]) = engine(ready);
     let request = json!({
         "verb": "translate",
         "file": ready.of.details.name,
         "from": asked.from,
         "to": asked.to,
-        "machine_from": named(&asked.machine_from),
-        "machine_to": named(&asked.machine_to),
+        "machine_from": machine_from,
+        "machine_to": machine_to,
         "from_option": asked.from_option,
         "to_option": asked.to_option,
         "value": asked.value,
@@ -290,16 +282,16 @@ fn run(store: &Store, ready: &mut Ready) -> Result<Made, Problem> {
         "map": true,
     })
     .to_string();
-    let mut engine = engine(ready);
     let (code, folder) = run_with_called(store, &ready.of, &mut engine, &request)?;
     let report = engine.output("report").unwrap_or_default().to_vec();
     let (DONE, Some(text)) = (code, engine.output("output")) else {
-        return Err(refusal(&engine, code, &report));
+        let told = compiler::json(&engine, "report");
+        return Err(refusal(&engine, code, told["diagnostics"].clone(), told["questions"].clone()));
     };
     let lines = engine.output("lines").unwrap_or_default();
     let (lines, _) = lines.as_chunks::<4>();
     let lines: Vec<u32> = lines.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
-    let told: Value = serde_json::from_slice(&report).unwrap_or_default();
+    let told = compiler::json(&engine, "report");
     let called = told["source"]["called"].as_array().into_iter().flatten();
     let called = called.filter_map(|file| file["file"].as_str());
     ready.inputs.called =
@@ -316,7 +308,7 @@ pub(crate) fn run_with_called(
     request: &str,
 ) -> Result<(u8, BTreeMap<String, String>), Problem> {
     let code = engine.run(request);
-    if code == DONE || !output(engine, "messages").contains(NOT_THERE) {
+    if code == DONE || !compiler::text(engine, "messages").contains(NOT_THERE) {
         return Ok((code, BTreeMap::new()));
     }
     let folder = with_folder(store, of, engine)?;
@@ -344,37 +336,6 @@ fn with_folder(
     Ok(folder)
 }
 
-fn output(engine: &Engine, name: &str) -> String {
-    engine.output(name).map(|text| String::from_utf8_lossy(text).into_owned()).unwrap_or_default()
-}
-
-/// Why the engine has not done a request; `report` is that of a translation.
-pub(crate) fn refusal(engine: &Engine, code: u8, report: &[u8]) -> Problem {
-    let messages = output(engine, "messages");
-    let report: Value = serde_json::from_slice(report).unwrap_or_default();
-    let questions = report.get("questions").filter(|all| all.as_array().is_some_and(|all| !all.is_empty()));
-    let detail = match (code, questions) {
-        (USAGE, _) => return usage(&messages),
-        (_, Some(_)) => "a question is open: answer it by one of the options that it names",
-        (VERIFICATION_FAILED, _) => "the output was not shown to make the same cut: please report it",
-        (_, None) => "the messages say why, and where",
-    };
-    let questions = questions.cloned();
-    let mut found = report.get("diagnostics").cloned();
-    // What refuses it comes first.
-    if let Some(all) = found.as_mut().and_then(Value::as_array_mut) {
-        all.sort_by_key(|own| own["severity"] != "error");
-    }
-    Problem::refused(detail, found, messages).asking(questions)
-}
-
-/// A request that is not of the form, in the engine's words: `error: …`, and lines of help.
-fn usage(messages: &str) -> Problem {
-    let mut lines = messages.trim().lines().map(str::trim);
-    let detail = lines.next().unwrap_or_default().trim_start_matches("error: ").to_owned();
-    lines.fold(Problem::request(detail), |problem, line| problem.help(line.trim_start_matches("help: ")))
-}
-
 /// The certificate of a translation: both programs executed and compared once more.
 ///
 /// # Errors
@@ -394,7 +355,7 @@ pub(crate) fn certificate(store: &Store, of: &Translation) -> Result<Vec<u8>, Pr
         )
         .help("translate the program again"));
     }
-    let mut engine = engine(&ready);
+    let (mut engine, [machine_from, machine_to]) = engine(&ready);
     if !before.called.is_empty() {
         with_folder(store, &ready.of, &mut engine)?;
     }
@@ -404,13 +365,12 @@ pub(crate) fn certificate(store: &Store, of: &Translation) -> Result<Vec<u8>, Pr
     let report = store.outcome(&of.id, Outcome::Report)?.ok_or(StoreError::Absent)?;
     let report: Value = serde_json::from_slice(&store.whole(&report)?).unwrap_or_default();
     let asked = &ready.asked;
-    let named = |name: &Option<String>| name.as_ref().map(|name| machine(&ready, name));
     let request = json!({
         "verb": "verify",
         "a": {
             "file": ready.of.details.name,
             "from": report["source"]["dialect"],
-            "machine": named(&asked.machine_from),
+            "machine": machine_from,
             "from_option": asked.from_option,
             "units": asked.units,
             "assume_milling": asked.assume_milling,
@@ -418,13 +378,13 @@ pub(crate) fn certificate(store: &Store, of: &Translation) -> Result<Vec<u8>, Pr
         "b": {
             "file": translated,
             "from": report["target"]["dialect"],
-            "machine": named(&asked.machine_to),
+            "machine": machine_to,
             "from_option": asked.to_option,
         },
     });
     let code = engine.run(&request.to_string());
     let Some(document) = engine.output("document") else {
-        return Err(refusal(&engine, code, b"{}"));
+        return Err(refusal(&engine, code, Value::Null, Value::Null));
     };
     store.keep_certificate(&of.id, document)?;
     Ok(document.to_vec())

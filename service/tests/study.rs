@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::client::{Answer, Server, repository};
+use crate::client::{Answer, PROGRAM, Server, repository};
 
 /// The state in which table 9 begins, and the function that takes the time of its tool change.
 const TABLE_9: &str =
@@ -172,4 +172,14 @@ fn the_printed_form_is_read_back() {
         let again = other.get(&format!("/persistence/table9.cn?form=printed&stage={stage}")).body;
         assert_eq!(String::from_utf8_lossy(&again), String::from_utf8_lossy(&printed), "{stage}");
     }
+}
+
+/// The times of a program without a machine rest on assumptions, and its writer reads them.
+#[test]
+fn the_assumptions_of_the_times_are_reported() {
+    let server = Server::all();
+    let made = server.program("POST", "/transpiler/a?dialect=mach9", PROGRAM).json();
+    let assumed: Vec<_> =
+        made["assumed"].as_array().expect("a list").iter().filter_map(|line| line.as_str()).collect();
+    assert!(assumed.contains(&"rapid rate = 30000 mm/min"), "{assumed:?}");
 }

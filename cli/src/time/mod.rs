@@ -23,7 +23,6 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::source::Source;
-use ncc_driver::time::columns;
 use ncc_driver::time::drive::Stage;
 use ncc_machines::Profile;
 
@@ -236,19 +235,8 @@ fn summaries(
             lost.refused(source.name.clone());
             continue;
         }
-        let mut timing = Timing {
-            prog_name: source.name.clone(),
-            dialect: job.from.dialect.id.clone(),
-            blocks: course.blocks,
-            functions: 0,
-            clock: [plan.start_time, course.end].map(columns::micro),
-            bounds: course.bounds.map(|bounds| bounds.map(columns::micro)),
-            assumed: assumptions(shop, &plan, &course),
-            total: Tally::default(),
-            tools: Vec::new(),
-            operations: Vec::new(),
-        };
-        timing.take(tallier.finish());
+        let assumed = assumptions(shop, &plan, &course);
+        let timing = Timing::of(&source.name, &plan, &course, assumed, tallier.finish());
         report.total.join(&timing.total);
         report.programs.push(timing);
     }

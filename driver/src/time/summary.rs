@@ -8,6 +8,8 @@ use std::io;
 use ncc_time::Model;
 use serde::Serialize;
 
+use super::columns::micro;
+use super::drive::{Course, Plan};
 use super::duration::{hms, short};
 use super::grid::{Grid, escaped};
 use super::tally::{Account, Operation, Tally, Tool};
@@ -60,19 +62,28 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Puts in what was counted.
-    pub fn take(&mut self, account: Account) {
-        self.functions = account.functions;
-        self.total = account.total.rounded();
-        self.tools = account.tools;
-        self.operations = account.operations;
-        for tally in self.tools.iter_mut().map(|t| &mut t.tally) {
+    /// The summary of a program that was executed.
+    pub fn of(name: &str, plan: &Plan, course: &Course, assumed: Vec<String>, account: Account) -> Timing {
+        let mut timing = Timing {
+            prog_name: name.to_owned(),
+            dialect: plan.job.from.dialect.id.clone(),
+            blocks: course.blocks,
+            functions: account.functions,
+            clock: [plan.start_time, course.end].map(micro),
+            bounds: course.bounds.map(|bounds| bounds.map(micro)),
+            assumed,
+            total: account.total.rounded(),
+            tools: account.tools,
+            operations: account.operations,
+        };
+        for tally in timing.tools.iter_mut().map(|t| &mut t.tally) {
             *tally = tally.rounded();
         }
-        for operation in &mut self.operations {
+        for operation in &mut timing.operations {
             operation.tally = operation.tally.rounded();
-            operation.start = super::columns::micro(operation.start);
+            operation.start = micro(operation.start);
         }
+        timing
     }
 }
 

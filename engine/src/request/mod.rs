@@ -27,8 +27,8 @@ pub enum Request {
     Translate(Translate),
     /// Checks a program. Outputs: `findings` (the document of `ncc check --format json`), `messages`.
     Check(One),
-    /// Executes a program with a clock. Outputs: `times` (the document of `ncc time --as payload`), `findings` if they are
-    /// wanted, `messages`.
+    /// Executes a program with a clock. Outputs: `times` (the document of `ncc time --as payload`), `messages`; if they
+    /// are wanted, `findings`, and `assumed`: the assumptions of the times, a list of lines.
     Time(Time),
     /// Executes a program with a clock, and sums up. Outputs: `document` (as of `ncc time --as json`), `tools` (as of `ncc time
     /// --as tools`), `messages`.

@@ -33,9 +33,6 @@ use crate::http::{self, Problem};
 use crate::store::{Job, TaskResult, Wanted};
 use crate::translating::Asked;
 
-/// Bytes of a request at most.
-const REQUEST: u64 = 1 << 20;
-
 /// Programs of a job at most.
 const PROGRAMS: u32 = 100_000;
 
@@ -65,8 +62,7 @@ fn told(job: &Job) -> Value {
 }
 
 /// What is asked, taken apart: which programs, and what of each.
-fn taken_apart(text: &[u8]) -> Result<(Which, Asked), Problem> {
-    let mut object: Map<String, Value> = body::object(text)?;
+fn taken_apart(mut object: Map<String, Value>) -> Result<(Which, Asked), Problem> {
     let mut which = Map::new();
     for name in ["under", "tag", "programs"] {
         which.extend(object.remove(name).map(|value| (name.to_owned(), value)));
@@ -96,10 +92,7 @@ pub(super) async fn create(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    if body::media(&headers)?.as_deref() != Some("application/json") {
-        return Err(Problem::media("application/json"));
-    }
-    let (which, asked) = taken_apart(&body::whole(body, REQUEST)?)?;
+    let (which, asked) = taken_apart(body::json(&headers, body)?)?;
     let (id, author) = (new_id()?, shared.author.clone());
     let place = format!("/api/v1/jobs/{id}");
     let job = shared

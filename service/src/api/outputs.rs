@@ -23,15 +23,12 @@ use ncc_engine::Engine;
 use serde_json::{Value, json};
 
 use crate::Shared;
+use crate::compiler::{DONE, REFUSED, put_machine, refusal};
 use crate::http::Problem;
 use crate::http::conditions::{etag, is_known, not_modified};
 use crate::http::query::Query;
 use crate::store::{Revision, Store, digest};
-use crate::translating::{profile, refusal, run_with_called};
-
-/// Exit codes of the engine.
-const DONE: u8 = 0;
-const REFUSED: u8 = 1;
+use crate::translating::{profile, run_with_called};
 
 /// An output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,15 +156,7 @@ fn find(store: &Store, id: &str, asked: &mut Asked) -> Result<Found, Problem> {
 fn make(store: &Store, found: &Found, asked: &Asked, output: Output, most: u64) -> Result<Vec<u8>, Problem> {
     let file = &found.of.details.name;
     let mut engine = Engine::default();
-    let machine = found.machine.as_ref().map(|(name, text)| match text {
-        None => name.clone(),
-        Some(text) => {
-            // Beside the program, which may have the same name.
-            let own = format!("machine {name}");
-            engine.put(&own, text.clone().into_bytes());
-            own
-        }
-    });
+    let machine = found.machine.as_ref().map(|(name, text)| put_machine(&mut engine, name, text.as_deref()));
     engine.put(file, store.whole(&found.of.content)?);
     let (verb, name) = output.of();
     let mut request = asked.request(verb, file, machine.as_deref());
@@ -176,7 +165,7 @@ fn make(store: &Store, found: &Found, asked: &Asked, output: Output, most: u64) 
     }
     let (code, _) = run_with_called(store, &found.of, &mut engine, &request.to_string())?;
     let made = engine.output(name).filter(|_| code == DONE || output == Output::Check && code == REFUSED);
-    let made = made.ok_or_else(|| refusal(&engine, code, b"{}"))?;
+    let made = made.ok_or_else(|| refusal(&engine, code, Value::Null, Value::Null))?;
     if output != Output::Times {
         return Ok(made.to_vec());
     }

@@ -27,9 +27,6 @@ use crate::http::{self, Problem};
 use crate::store::{Said, State, Step, Store, StoreError, Translation};
 use crate::translating::{certificate, stale};
 
-/// Bytes of a request at most.
-const REQUEST: u64 = 1 << 16;
-
 /// Verdicts of a certificate with which a translation may be released.
 const SAME: [&str; 2] = ["equal", "equal-within-tolerance"];
 
@@ -78,11 +75,7 @@ pub(super) async fn step(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    if body::media(&headers)?.as_deref() != Some("application/json") {
-        return Err(Problem::media("application/json"));
-    }
-    let text = body::whole(body, REQUEST)?;
-    let asked: Asked = body::object(&text)?;
+    let asked: Asked = body::json(&headers, body)?;
     message_fits(&asked.message)?;
     let said = Said { author: shared.author.clone(), message: asked.message };
     let document = shared

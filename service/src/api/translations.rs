@@ -26,9 +26,6 @@ use crate::http::{self, Problem};
 use crate::store::{Outcome, State as Wanted, Store, Translation};
 use crate::translating::{Asked, certificate, stale, translate};
 
-/// Bytes of a request at most.
-const REQUEST: u64 = 1 << 16;
-
 /// What is told of a translation.
 pub(super) fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
     let asked: Value = serde_json::from_str(&of.asked).unwrap_or_default();
@@ -63,11 +60,7 @@ pub(super) async fn create(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    if body::media(&headers)?.as_deref() != Some("application/json") {
-        return Err(Problem::media("application/json"));
-    }
-    let text = body::whole(body, REQUEST)?;
-    let asked: Asked = body::object(&text)?;
+    let asked: Asked = body::json(&headers, body)?;
     let (id, author) = (new_id()?, shared.author.clone());
     let (document, place, is_new) = shared
         .compile(move |store| {

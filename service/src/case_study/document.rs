@@ -17,6 +17,7 @@ use ncc_machines::Profile;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::compiler::{self, DONE, put_machine, refusal};
 use crate::http::Problem;
 use crate::http::body::NAME;
 use crate::machines::profile;
@@ -33,12 +34,6 @@ pub(crate) const CMF_REFUSED: &str = "cmf-refused";
 
 /// The media type of a [`Whole`].
 pub(crate) const WHOLE_MEDIA: &str = "application/vnd.ncc.document+json";
-
-/// Exit codes of the engine.
-const DONE: u8 = 0;
-const USAGE: u8 = 2;
-const FILE: u8 = 4;
-const INTERRUPTED: u8 = 130;
 
 /// A document with all its parts, as the services send it to each other.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -153,18 +148,12 @@ pub(crate) struct Made {
 pub(crate) fn process(name: &str, program: &[u8], setting: &Setting, most: u64) -> Result<Made, Problem> {
     let mut engine = Engine::default();
     engine.put(name, program.to_vec());
-    // Files of one name would be one file.
-    let machine = setting.machine.as_ref().map(|own| match (&setting.profile, own == name) {
-        (Some(_), true) => format!("machine {own}"),
-        _ => own.clone(),
-    });
-    if let (Some(machine), Some(profile)) = (&machine, &setting.profile) {
-        engine.put(machine, profile.clone().into_bytes());
-    }
+    let profile = setting.profile.as_deref();
+    let machine = setting.machine.as_ref().map(|name| put_machine(&mut engine, name, profile));
     let mut time = json!({ "verb": "time", "file": name, "findings": true, "most": most });
     state(&mut time, setting, machine.as_deref());
     let after = timed(&mut engine, &time)?;
-    let findings: Value = output(&engine, "findings").unwrap_or(Value::Null);
+    let [findings, assumed] = ["findings", "assumed"].map(|name| compiler::json(&engine, name));
     time["stage"] = "before".into();
     let before = timed(&mut engine, &time)?;
     let document = read(&after, name)?;
@@ -186,6 +175,7 @@ pub(crate) fn process(name: &str, program: &[u8], setting: &Setting, most: u64) 
         "blocks": document.blocks.len(),
         "seconds": document.blocks.last().map_or(0.0, |block| block.timestamp),
         "diagnostics": findings,
+        "assumed": assumed,
         "cmf": refused.is_none(),
         "cmf_refused": refused,
     });
@@ -209,26 +199,7 @@ fn timed(engine: &mut Engine, request: &Value) -> Result<Vec<u8>, Problem> {
     let code = engine.run(&request.to_string());
     match (code, engine.output("times")) {
         (DONE, Some(times)) => Ok(times.to_vec()),
-        _ => Err(refusal(engine, code, "findings")),
-    }
-}
-
-fn output(engine: &Engine, name: &str) -> Option<Value> {
-    engine.output(name).and_then(|bytes| serde_json::from_slice(bytes).ok())
-}
-
-/// Why the engine has not done a request.
-fn refusal(engine: &Engine, code: u8, findings: &str) -> Problem {
-    let messages = engine.output("messages").map(|text| String::from_utf8_lossy(text).into_owned());
-    let messages = messages.unwrap_or_default();
-    let plain = || messages.trim().trim_start_matches("error: ").to_owned();
-    match code {
-        USAGE => Problem::request(plain()),
-        FILE | INTERRUPTED => Problem::refused(plain(), None, messages.clone()),
-        _ => {
-            let found = output(engine, findings);
-            Problem::refused("it has errors, or is for no mill: see the messages", found, messages.clone())
-        }
+        _ => Err(refusal(engine, code, compiler::json(engine, "findings"), Value::Null)),
     }
 }
 
@@ -263,12 +234,11 @@ fn canonical(
     match (code, engine.output("output")) {
         (DONE, Some(list)) => Ok(list.to_vec()),
         _ => {
-            let report = output(engine, "report").unwrap_or_default();
-            let told = engine.output("messages").map(|text| String::from_utf8_lossy(text).into_owned());
+            let report = compiler::json(engine, "report");
             Err(json!({
                 "questions": report.get("questions"),
                 "diagnostics": report.get("diagnostics"),
-                "messages": told,
+                "messages": compiler::text(engine, "messages"),
             }))
         }
     }

@@ -42,6 +42,27 @@ pub(crate) fn broken(error: &(dyn Error + 'static)) -> Problem {
     }
 }
 
+/// Bytes of a request in JSON at most.
+const REQUEST: u64 = 1 << 20;
+
+/// A request in JSON.
+///
+/// # Errors
+/// The body has another type, is too large, broke off, or is no object of this form.
+pub(crate) fn json<T: DeserializeOwned>(
+    headers: &HeaderMap,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<T, Problem> {
+    if media(headers)?.as_deref() != Some("application/json") {
+        return Err(Problem::media("application/json"));
+    }
+    let text = whole(body, REQUEST)?;
+    if text.len() as u64 > REQUEST {
+        return Err(Problem::too_large(REQUEST));
+    }
+    object(&text)
+}
+
 /// A JSON object.
 ///
 /// # Errors
