@@ -47,14 +47,14 @@ pub enum Only {
     Transpiler,
     /// Documents stored and restored
     Persistence,
-    /// What is made of a stored document
+    /// Tables and lists from a stored document
     Output,
 }
 
 /// The variable that names a PostgreSQL server. Its password is no argument, which others could read.
 const URL: &str = "NCC_DATABASE_URL";
 
-/// Where the database is.
+/// The place of the database.
 fn place(args: &Serve) -> Result<Place, Problem> {
     let wrong = || {
         Problem::usage(
@@ -83,7 +83,7 @@ fn author(args: &Serve) -> String {
     name.unwrap_or_else(|| "unknown".to_owned())
 }
 
-/// Which services the command line asks for.
+/// The services that the command line asks for.
 fn part(args: &Serve) -> Result<Part, Problem> {
     let elsewhere = || {
         let needed = || Problem::usage("this service needs the address of PERSISTENCE", "--persistence URL");

@@ -209,7 +209,7 @@ pub(crate) fn settings(
     Ok((settings, rivals))
 }
 
-/// Where the tool stands before the first block.
+/// Position of the tool before the first block, program coordinates: `X-9,Y15.588,Z3`.
 pub(crate) fn stands(start: Option<&str>) -> Result<[Option<Nanos>; AXES], Problem> {
     let read =
         start.map(|text| position(text).map_err(|why| RequestFault::Start(text.to_owned(), why.words())));

@@ -56,7 +56,7 @@ pub(crate) fn project(
     Ok((Exit::Done, vec![("output", written.into_bytes())]))
 }
 
-/// What a project file states of a program, which files it names (profiles, bodies), and which of them are not at hand.
+/// Statements of a project file about a program, the files that it names (profiles, bodies), and missing files among them.
 ///
 /// ```json
 /// { "machine": { "name": null, "dialect": "fanuc", "options": { "decimal_point": "calculator" } }, "to": null,

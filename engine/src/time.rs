@@ -44,7 +44,7 @@ impl Ready {
     }
 }
 
-/// How a program is executed, as it is asked for.
+/// The plan of an execution, from the request.
 fn planned<'p>(
     asked: &Time,
     job: &'p Job,

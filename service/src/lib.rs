@@ -39,7 +39,7 @@ pub use self::store::Place;
 use self::store::Store;
 use self::work::Pool;
 
-/// What the service does for its clients at most.
+/// Limits of the service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes of a program and of a document.
@@ -48,13 +48,13 @@ pub struct Limits {
     pub bodies: usize,
     /// Pieces of work of the compiler that wait for each thread.
     pub waiting: usize,
-    /// How long a piece of work may take.
+    /// Time limit of a piece of work.
     pub work: Duration,
-    /// How long the head of a request may take.
+    /// Time limit of the head of a request.
     pub head: Duration,
-    /// How long the body of a request may take.
+    /// Time limit of the body of a request.
     pub body: Duration,
-    /// How long a client may read nothing of its answer.
+    /// Time limit of a client that reads nothing of its answer.
     pub reader: Duration,
 }
 
@@ -75,12 +75,12 @@ impl Default for Limits {
 /// Bytes of a thread's stack: programs nest.
 const STACK: usize = 8 << 20;
 
-/// Which services a process has.
+/// The services of a process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Part {
     /// All of them.
     All {
-        /// Where the database is.
+        /// The place of the database.
         database: Place,
     },
     /// PERSISTENCE and the machines' profiles.
@@ -100,7 +100,7 @@ pub enum Part {
     },
 }
 
-/// Why a server cannot be opened.
+/// Reason why a server cannot be opened.
 #[derive(Debug)]
 pub enum OpenError {
     /// It would answer other computers, and there are no logins.
@@ -111,7 +111,7 @@ pub enum OpenError {
     Database(String),
 }
 
-/// What all requests share.
+/// State that all requests share.
 struct Shared {
     shelf: Shelf,
     /// The store, where this process has it.
@@ -119,7 +119,7 @@ struct Shared {
     pool: Pool,
     /// Bytes of a program and of a document at most.
     largest: u64,
-    /// Who makes the changes: without a login, there is one user.
+    /// Author of all changes: without a login, there is one user.
     author: String,
 }
 
@@ -184,7 +184,7 @@ pub struct Service {
     routes: Router<Arc<Shared>>,
     shared: Arc<Shared>,
     threads: usize,
-    /// How many jobs' tasks are done at once.
+    /// Number of workers.
     workers: usize,
     limits: Limits,
 }
@@ -243,7 +243,7 @@ impl Service {
         Ok(Service { listener, here, routes, shared, threads, workers, limits })
     }
 
-    /// Where it listens.
+    /// Address of the server.
     pub fn address(&self) -> String {
         format!("http://{}", self.here)
     }

@@ -1,4 +1,4 @@
-//! What the service tells whoever runs it: lines on stderr.
+//! The log of the service: lines on stderr.
 
 use std::io::Write;
 

@@ -67,7 +67,7 @@ pub(crate) fn profile(text: &str) -> Result<Profile, Vec<ProfileError>> {
     }
 }
 
-/// What is wrong with a profile, each fault with its line and column.
+/// Diagnostics of a profile, each with line and column.
 fn faults(wrong: &[ProfileError], text: &str) -> Value {
     let fault = |error: &ProfileError| {
         let before = &text[..error.span.start.min(text.len())];

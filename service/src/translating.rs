@@ -1,6 +1,6 @@
 //! A translation of a program that is kept here: what goes in, what comes out, and whether it still holds.
 //!
-//! What goes in are texts: the program, those that it calls, both machines' profiles, both dialects' dictionaries, and
+//! The inputs are texts: the program, those that it calls, both machines' profiles, both dialects' dictionaries, and
 //! ncc itself. Their digests are kept with the translation; it is *stale* as soon as one of them is another one now. Not
 //! here: HTTP, and the translation itself (`ncc_driver`).
 
@@ -24,13 +24,13 @@ const PROGRAMS: u32 = 10_000;
 /// The code of a called program that is not there.
 const NOT_THERE: &str = "NC0217";
 
-/// What is asked. Names and values are those of the command line's options.
+/// A request for a translation. Names and values are those of the command line's options.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(crate) struct Asked {
     /// The program.
     pub(crate) program: String,
-    /// Which of its revisions; without, the one that it is.
+    /// The revision; without, the latest.
     pub(crate) revision: Option<i64>,
     /// Its dialect; without, what is known of the program.
     from: Option<String>,
@@ -48,7 +48,7 @@ pub(crate) struct Asked {
     value: BTreeMap<String, String>,
     /// The source's units at power-on.
     units: Option<String>,
-    /// Where the tool stands before the first block.
+    /// Position of the tool before the first block, program coordinates: `X-9,Y15.588,Z3`.
     start: Option<String>,
     /// Program number of the output.
     program_number: Option<u32>,
@@ -85,7 +85,7 @@ struct Ready {
     key: String,
 }
 
-/// What came out.
+/// Results of a translation.
 struct Made {
     output: Vec<u8>,
     report: Vec<u8>,
@@ -179,12 +179,12 @@ fn inputs(of: &Translation) -> Result<Inputs, Problem> {
     serde_json::from_str(&of.inputs).map_err(|_| Problem::fault())
 }
 
-/// What is asked, as it was kept.
+/// The stored request of a translation.
 fn asked(of: &Translation) -> Result<Asked, Problem> {
     serde_json::from_str(&of.asked).map_err(|_| Problem::fault())
 }
 
-/// What has changed since a translation was made; nothing where it still holds.
+/// Inputs that have changed since a translation was made; empty if the translation is up to date.
 pub(crate) fn stale(store: &Store, of: &Translation) -> Result<Vec<&'static str>, Problem> {
     let (before, asked) = (inputs(of)?, asked(of)?);
     let head = store.program(&of.program)?;
@@ -244,7 +244,7 @@ pub(crate) fn translate(
     Ok((kept, is_new))
 }
 
-/// What a program is translated for: of several translations for one target, one is released.
+/// The target of a translation, machine and dialect. At most one translation for a target is released.
 fn target(asked: &Asked) -> String {
     [&asked.machine_to, &asked.to].map(|name| name.clone().unwrap_or_default()).join(" ").trim().to_owned()
 }

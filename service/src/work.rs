@@ -8,7 +8,7 @@ use std::time::Duration;
 use ncc_exec::halt::{self, Halt};
 use tokio::sync::Semaphore;
 
-/// Why a piece of work has no result.
+/// Reason why a piece of work has no result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NotDone {
     /// Too many pieces wait already.
@@ -42,7 +42,7 @@ impl Pool {
         Pool { threads: Arc::new(Semaphore::new(threads)), places, limit }
     }
 
-    /// How long a piece may take.
+    /// Time limit of a piece of work.
     pub(crate) fn limit(&self) -> Duration {
         self.limit
     }

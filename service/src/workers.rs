@@ -16,10 +16,10 @@ use crate::translating::{Asked, translate};
 /// Seconds for which a task is claimed; more than it may take.
 const CLAIM: i64 = 60;
 
-/// How often a worker without work looks for some, and one with work whether its job has been cancelled.
+/// Interval in which an idle worker looks for a task, and a busy worker for a cancelled job.
 const GLANCE: Duration = Duration::from_millis(250);
 
-/// Why a task has not come to its end.
+/// Reason why a task has no result.
 enum Left {
     Cancelled,
     Stopped,

@@ -272,7 +272,7 @@ impl Simulation {
         }
     }
 
-    /// What must be asked before a move cuts: what is in its way. `low` is its least Z.
+    /// Obstacles that a move may meet before it cuts. `low` is the least Z of the move, mm.
     #[cold]
     fn look(&mut self, from: [f64; 3], own: &Move, low: f64) {
         if matches!(own.way, Way::Away) {
@@ -464,7 +464,7 @@ mod tests {
         part
     }
 
-    /// What a program leaves does not depend on the processor.
+    /// A program leaves the same part on every processor.
     #[test]
     fn all_instruction_sets_give_the_same_bits() {
         let best = Level::new();

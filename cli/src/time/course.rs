@@ -216,7 +216,7 @@ fn tell(
     err.flush()
 }
 
-/// What a program's timing assumes.
+/// Assumptions of a program's timing, a line each.
 pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
     let dialect = plan.job.from.dialect;

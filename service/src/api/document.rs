@@ -1,4 +1,4 @@
-//! What is told of a program, and what is said of it.
+//! The document of a program, and the statements of its owner.
 
 use axum::http::HeaderMap;
 use axum::http::header::{ETAG, LOCATION};
@@ -21,7 +21,7 @@ const TAGS: usize = 100;
 /// Folders in each other at most.
 const DEEPEST: usize = 32;
 
-/// What is told of a program.
+/// The document of a program.
 pub(super) fn document(of: &Revision) -> Value {
     let stated = |name: &str| Some(name.to_owned()).filter(|name| !name.is_empty());
     json!({
@@ -96,7 +96,7 @@ pub(super) fn tags(tags: Vec<String>) -> Result<Vec<String>, Problem> {
     (tags.len() <= TAGS).then_some(tags).ok_or_else(many)
 }
 
-/// What is said of a new program in its address.
+/// Details of a new program, from the address.
 pub(super) fn details(query: &mut Query) -> Result<Details, Problem> {
     let needed = || Problem::request("a program has a name").help("?name=part.nc");
     let details = Details {
@@ -128,7 +128,7 @@ pub(super) fn machine(name: &str) -> Result<(), Problem> {
     if name.is_empty() { Ok(()) } else { body::name(name).map(|_| ()) }
 }
 
-/// Who changes something, and why, as the address says.
+/// Author and message of a change, from the address.
 pub(super) fn said(query: &mut Query, author: &str) -> Result<Said, Problem> {
     let message = query.one("message")?.unwrap_or_default();
     message_fits(&message)?;

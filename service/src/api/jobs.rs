@@ -36,10 +36,10 @@ use crate::translating::Asked;
 /// Programs of a job at most.
 const PROGRAMS: u32 = 100_000;
 
-/// How often a job is looked at for its events.
+/// Interval of the events of a job.
 const GLANCE: Duration = Duration::from_millis(200);
 
-/// Which programs a job is about: those of a folder and below it, a list of them, or both.
+/// The programs of a job: a folder with its subfolders, a tag, a list, or a union of these.
 #[derive(Debug, Default, Deserialize)]
 struct Which {
     under: Option<String>,
@@ -61,7 +61,7 @@ fn told(job: &Job) -> Value {
     })
 }
 
-/// What is asked, taken apart: which programs, and what of each.
+/// Splits a request into its programs and the request for each program.
 fn taken_apart(mut object: Map<String, Value>) -> Result<(Which, Asked), Problem> {
     let mut which = Map::new();
     for name in ["under", "tag", "programs"] {
@@ -193,7 +193,7 @@ pub(super) async fn results(
     Ok(http::json(&json!({ "results": results, "next": next })))
 }
 
-/// What a reader of events has been told.
+/// State of a reader of events.
 struct Watching {
     shared: Arc<Shared>,
     id: String,

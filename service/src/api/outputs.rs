@@ -1,4 +1,4 @@
-//! What is made of a program by executing it: times, tools, checks.
+//! Outputs of an executed program: times, tools, checks.
 //!
 //! ```text
 //! GET /api/v1/programs/ID/outputs/summary    times by tool and operation, as `ncc time --as json`
@@ -67,7 +67,7 @@ impl Output {
     }
 }
 
-/// How the program is executed, as the address says.
+/// Settings of the execution, from the address.
 struct Asked {
     revision: Option<i64>,
     dialect: Option<String>,

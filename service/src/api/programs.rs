@@ -107,7 +107,7 @@ pub(super) async fn read(
     Ok(told(&found, &headers))
 }
 
-/// What is to be said of a program (RFC 7396): what is left out stays, `null` takes it away.
+/// Changes of the details (RFC 7396): a field that is left out stays, `null` clears a field.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct Patch {

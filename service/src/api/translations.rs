@@ -26,7 +26,7 @@ use crate::http::{self, Problem};
 use crate::store::{Outcome, State as Wanted, Store, Translation};
 use crate::translating::{Asked, certificate, stale, translate};
 
-/// What is told of a translation.
+/// The document of a translation.
 pub(super) fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
     let asked: Value = serde_json::from_str(&of.asked).unwrap_or_default();
     let inputs: Value = serde_json::from_str(&of.inputs).unwrap_or_default();
@@ -43,7 +43,7 @@ pub(super) fn document(store: &Store, of: &Translation) -> Result<Value, Problem
     }))
 }
 
-/// What is asked, without what is left open.
+/// A request without its empty fields.
 pub(super) fn short(asked: &Value) -> Value {
     let says = |value: &Value| {
         !value.is_null() && *value != json!({}) && *value != json!(false) && *value != json!("")

@@ -29,7 +29,7 @@ pub(crate) const BEFORE: &str = "before";
 pub(crate) const AFTER: &str = "after";
 /// The list of canonical functions.
 pub(crate) const CMF: &str = "cmf";
-/// Why there is no such list.
+/// Diagnostics of a program without such a list.
 pub(crate) const CMF_REFUSED: &str = "cmf-refused";
 
 /// The media type of a [`Whole`].
@@ -105,7 +105,7 @@ pub(crate) fn of_payload(text: &[u8], name: &str) -> Result<(Parts, [String; 2])
     Ok((Parts::from([(part.to_owned(), text.to_vec())]), of))
 }
 
-/// What a program is processed with.
+/// Settings for the processing of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Setting {
     /// The name of its dialect; none is recognised.
@@ -116,7 +116,7 @@ pub(crate) struct Setting {
     pub(crate) profile: Option<String>,
     /// Choices where the dictionary leaves a question open.
     pub(crate) options: BTreeMap<String, String>,
-    /// Where the tool stands before the first block.
+    /// Position of the tool before the first block, program coordinates: `X-9,Y15.588,Z3`.
     pub(crate) start: Option<String>,
     /// Seconds on the clock before the first block.
     pub(crate) start_time: f64,
@@ -130,14 +130,14 @@ pub(crate) struct Setting {
     pub(crate) assume_milling: bool,
 }
 
-/// What was made of a program.
+/// Results of a processed program.
 #[derive(Debug)]
 pub(crate) struct Made {
     /// The parts of its document.
     pub(crate) parts: Parts,
     /// The short name of its machine, and the name of its dialect.
     pub(crate) of: [String; 2],
-    /// What its writer is told.
+    /// The answer to the writer.
     pub(crate) account: Value,
 }
 

@@ -14,7 +14,7 @@ use crate::http::body::encoded;
 use crate::http::conditions::etag;
 use crate::store::{Condition, Listed, Machine};
 
-/// How long an answer may take.
+/// Time limit of an answer.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Bytes of an answer at most.

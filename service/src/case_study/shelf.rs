@@ -1,4 +1,4 @@
-//! Where documents are kept: in this process' store, or by another service.
+//! Two places of documents: the store of this process, or another service.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use super::document::Whole;
 use crate::http::Problem;
 use crate::store::{Condition, Listed, Machine, Parts, Store};
 
-/// Where documents are kept.
+/// The place of documents.
 #[derive(Clone)]
 pub(crate) enum Shelf {
     /// In the store of this process.

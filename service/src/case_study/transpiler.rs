@@ -21,11 +21,11 @@ use crate::http::conditions::{etag, expected};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
 
-/// What the address of a program takes.
+/// Query names of the address of a program.
 const TAKES: &str =
     "dialect, machine, option, start, start_time, model, tool_change_on, units, assume_milling";
 
-/// What a program is processed with, as its address states it.
+/// The settings in the address of a program.
 fn stated(query: Option<&str>) -> Result<Setting, Problem> {
     let mut query = Query::of(query);
     let start_time = query.number("start_time")?.unwrap_or_default();

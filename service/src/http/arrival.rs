@@ -28,11 +28,11 @@ pub(crate) struct Arrivals {
     free: Arc<Semaphore>,
     /// Bytes of one body.
     largest: u64,
-    /// How long one body may take.
+    /// Time limit of one body.
     patience: Duration,
 }
 
-/// Why a body did not arrive.
+/// Reason why a body did not arrive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Broken {
     /// Its time was over.
@@ -66,7 +66,7 @@ impl Arrivals {
     }
 }
 
-/// What a request's body holds.
+/// Memory that the body of a request holds.
 type Held = Arc<Mutex<Option<OwnedSemaphorePermit>>>;
 
 /// A body on its way.

@@ -33,7 +33,7 @@ pub(crate) fn whole(body: Result<Bytes, BytesRejection>, most: u64) -> Result<By
     })
 }
 
-/// Why a body did not arrive.
+/// Reason why a body did not arrive.
 pub(crate) fn broken(error: &(dyn Error + 'static)) -> Problem {
     match Broken::of(error) {
         Some(Broken::TooSlow) => Problem::too_slow(),

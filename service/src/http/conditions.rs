@@ -26,7 +26,7 @@ fn tags(headers: &HeaderMap, name: &HeaderName) -> Option<Vec<String>> {
     found
 }
 
-/// What a writer expects to be there (`If-Match`).
+/// The condition of a writer (`If-Match`).
 ///
 /// # Errors
 /// `If-None-Match` with tags, which says nothing to a writer.

@@ -24,10 +24,10 @@ const CONNECTIONS: usize = 512;
 /// Bytes of a head at most; as many of a body are read at once.
 const HEAD: usize = 128 << 10;
 
-/// How long requests that are being answered have until the process ends.
+/// Time for the running requests after a stop.
 const GRACE: Duration = Duration::from_secs(35);
 
-/// How long it waits after the system had no connection to give, such as for want of open files.
+/// Pause after a failed accept, such as for want of open files.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Answers until `stopped`; requests that are being answered then end first.

@@ -1,4 +1,4 @@
-//! Who is let in, and what each answer says to a browser.
+//! Checks of Host and Origin, and headers of each answer for browsers.
 //!
 //! The service answers this computer alone, without a login. So a request must name this server as its host, and must not
 //! come from another page: else a page of a stranger could have the browser ask.

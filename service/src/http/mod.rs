@@ -1,4 +1,4 @@
-//! What all addresses have in common: conditions, queries, bodies, problems, and who is let in.
+//! Shared parts of all addresses: conditions, queries, bodies, problems, checks of Host and Origin.
 
 pub(crate) mod arrival;
 pub(crate) mod body;

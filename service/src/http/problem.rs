@@ -1,4 +1,4 @@
-//! What was not done, as RFC 9457 has it: `application/problem+json`.
+//! Errors as documents by RFC 9457: `application/problem+json`.
 
 use axum::http::header::{CONTENT_TYPE, RETRY_AFTER};
 use axum::http::{HeaderValue, StatusCode};
@@ -12,7 +12,7 @@ use crate::work::NotDone;
 /// The media type.
 pub(crate) const MEDIA: &str = "application/problem+json";
 
-/// What was not done, and why.
+/// An error with its reason and help.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem(Box<Body>);
 
@@ -24,12 +24,12 @@ struct Body {
     /// The same in words.
     title: &'static str,
     status: u16,
-    /// What is wrong with this request.
+    /// The error in this request.
     detail: String,
-    /// What to do.
+    /// Actions of the user.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     help: Vec<String>,
-    /// What is wrong with the program: as in a line of `ncc --format json`.
+    /// Diagnostics of the program, each as a line of `ncc --format json`.
     #[serde(skip_serializing_if = "Option::is_none")]
     diagnostics: Option<Value>,
     /// Questions that are open, with their answers.
@@ -93,7 +93,7 @@ impl Problem {
         self
     }
 
-    /// What is wrong.
+    /// The error in one line.
     pub(crate) fn detail(&self) -> &str {
         &self.0.detail
     }
@@ -180,7 +180,7 @@ impl Problem {
         Problem::of(CONTENT, detail).found(Some(diagnostics))
     }
 
-    /// What is kept does not allow it now.
+    /// The stored state does not allow the request now.
     pub(crate) fn conflict(detail: impl Into<String>) -> Problem {
         Problem::of(CONFLICT, detail)
     }

@@ -12,7 +12,7 @@ use super::{Store, StoreError, hex};
 /// Bytes of a piece at most.
 pub(crate) const PIECE: usize = 1 << 20;
 
-/// How long a content may take to be received, seconds.
+/// Time limit of the reception of a content, seconds.
 const DAY: i64 = 86_400;
 
 /// A content that is there as a whole.
@@ -32,7 +32,7 @@ pub(crate) struct Receiving {
     pieces: u32,
     bytes: u64,
     digest: Sha256,
-    /// What has not been written yet.
+    /// Bytes that are not written yet.
     rest: Vec<u8>,
 }
 
@@ -42,7 +42,7 @@ impl Receiving {
         self.bytes
     }
 
-    /// What has been written of it so far.
+    /// Row of the pieces that are written so far.
     pub(crate) fn aside(&self) -> Option<i64> {
         self.id
     }

@@ -10,7 +10,7 @@ use super::session::Session;
 use super::sqlite::{self, File};
 use super::{Place, StoreError};
 
-/// How long a writer waits for its turn, and a request for a connection.
+/// Time limit of a writer that waits for the lock, and of a request that waits for a connection.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Connections at most.

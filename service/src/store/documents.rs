@@ -14,7 +14,7 @@ const PIECE: usize = 1 << 20;
 /// The parts of a document by their names; what they are is said by `case_study::document`.
 pub(crate) type Parts = BTreeMap<String, Vec<u8>>;
 
-/// What is known of a document.
+/// A document without its parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Document {
     id: i64,
@@ -42,12 +42,12 @@ pub(crate) struct Listed {
     pub(crate) changed: i64,
 }
 
-/// What a writer expects to be there.
+/// The condition of a writer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Condition {
-    /// Whatever is there.
+    /// No condition.
     Any,
-    /// Something with one of these tags.
+    /// The stored tag is one of these.
     OneOf(Vec<String>),
 }
 

@@ -14,7 +14,7 @@ use super::{Store, StoreError};
 pub(crate) struct Job {
     /// Its name.
     pub(crate) id: String,
-    /// What is asked of each program, JSON.
+    /// The request for each program, JSON.
     pub(crate) asked: String,
     /// Whose it is.
     pub(crate) author: String,
@@ -24,11 +24,11 @@ pub(crate) struct Job {
     pub(crate) ended: Option<i64>,
     /// Whether it was cancelled.
     pub(crate) is_cancelled: bool,
-    /// How many tasks are in each state.
+    /// Number of tasks by state.
     pub(crate) counts: BTreeMap<String, i64>,
 }
 
-/// How a task ended.
+/// The end of a task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum End {
     /// The program was translated.
@@ -58,15 +58,15 @@ pub(crate) struct Task {
     pub(crate) number: i64,
     /// The program.
     pub(crate) program: String,
-    /// Which of its revisions.
+    /// The revision.
     pub(crate) revision: i64,
-    /// What is asked, JSON.
+    /// The request, JSON.
     pub(crate) asked: String,
     /// Whose job it is.
     pub(crate) author: String,
 }
 
-/// What became of a task.
+/// A task with its result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TaskResult {
     /// Counted from 1.
@@ -75,11 +75,11 @@ pub(crate) struct TaskResult {
     pub(crate) program: String,
     /// Its folder and name in the revision.
     pub(crate) place: [String; 2],
-    /// Which revision.
+    /// The revision.
     pub(crate) revision: i64,
     /// `waiting`, `running`, `done`, `refused`, `cancelled`.
     pub(crate) state: String,
-    /// What came out, JSON; empty before.
+    /// The result, JSON; empty until the task ends.
     pub(crate) result: String,
 }
 
@@ -223,7 +223,7 @@ impl Store {
         })
     }
 
-    /// What became of the tasks of a job: those after a number, so many at most.
+    /// Tasks of a job with their results, after a number, `most` at most.
     pub(crate) fn results(&self, id: &str, after: i64, most: u32) -> Result<Vec<TaskResult>, StoreError> {
         self.database.read(|from| {
             let result = |mut row: Row| {

@@ -1,4 +1,4 @@
-//! What the service keeps, in a database.
+//! The data of the service, in a database.
 //!
 //! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`; `documents`, `machines`, `programs` and their `contents` are what is kept. Every change is one transaction: it is
 //! there as a whole, or not at all. Not here: what a document says, and HTTP.
@@ -31,7 +31,7 @@ pub(crate) use self::programs::{Details, Once, Revision, Said, Wanted};
 pub(crate) use self::states::{State, Step};
 pub(crate) use self::translations::{Outcome, Translation};
 
-/// Why the store did not do something.
+/// An error of the store.
 #[derive(Debug)]
 pub(crate) enum StoreError {
     /// Nothing has this name.
@@ -66,7 +66,7 @@ impl fmt::Display for StoreError {
 
 impl std::error::Error for StoreError {}
 
-/// Where the database is.
+/// The place of the database.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// An SQLite file.

@@ -182,7 +182,7 @@ impl ToSql for Value {
     to_sql_checked!();
 }
 
-/// What the server says, or why there is none to say anything.
+/// The message of the server, or the reason why no server answers.
 pub(super) fn words(error: &postgres::Error) -> String {
     let own = error.as_db_error().map(|said| said.message().to_owned());
     own.unwrap_or_else(|| match error.source() {

@@ -10,7 +10,7 @@ use super::documents::now;
 use super::session::{Row, Session, values};
 use super::{Condition, Store, StoreError};
 
-/// What a revision has changed.
+/// The kind of change of a revision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Change {
@@ -44,7 +44,7 @@ impl Change {
     }
 }
 
-/// What its owner says of a program.
+/// Details of a program, stated by its owner.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Details {
     /// The folder, `shafts/left`; empty is the top.
@@ -59,7 +59,7 @@ pub(crate) struct Details {
     pub(crate) tags: Vec<String>,
 }
 
-/// Who changed something, and why.
+/// Author and message of a change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Said {
     /// Who.
@@ -75,19 +75,19 @@ pub(crate) struct Revision {
     pub(crate) program: String,
     /// Counted from 1.
     pub(crate) number: i64,
-    /// What its owner says of it.
+    /// The details.
     pub(crate) details: Details,
     /// Its text.
     pub(crate) content: Content,
-    /// What it has changed.
+    /// The kind of change.
     pub(crate) change: Change,
-    /// Who made it, and why.
+    /// Author and message.
     pub(crate) said: Said,
     /// When, seconds since 1970 (UTC).
     pub(crate) made: i64,
 }
 
-/// Which programs are wanted.
+/// A filter of programs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Wanted {
     /// Those in this folder.

@@ -23,7 +23,7 @@ const MARK: i32 = 0x6e63_6331;
 /// The file.
 pub(super) struct File {
     pub(super) path: PathBuf,
-    /// How long a writer waits for its turn.
+    /// Time limit of a writer that waits for the lock.
     pub(super) patience: Duration,
     /// The file as it was first opened. Where another one has taken its place, connections to both would mix two databases.
     pub(super) first: OnceLock<Handle>,

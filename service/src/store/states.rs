@@ -104,7 +104,7 @@ impl Store {
         })
     }
 
-    /// What a translation has gone through, in order.
+    /// The steps of a translation, in order.
     pub(crate) fn steps(&self, id: &str) -> Result<Vec<Step>, StoreError> {
         self.database.read(|from| {
             let step = |mut row: Row| {

@@ -15,28 +15,28 @@ pub(crate) struct Translation {
     pub(crate) key: String,
     /// The program.
     pub(crate) program: String,
-    /// Which of its revisions.
+    /// The revision.
     pub(crate) revision: i64,
-    /// What was asked, JSON.
+    /// The request, JSON.
     pub(crate) asked: String,
     /// Digests of what went in, JSON.
     pub(crate) inputs: String,
-    /// What it was translated for: machine and dialect.
+    /// The target: machine and dialect.
     pub(crate) target: String,
-    /// Who may use it.
+    /// The state of the approval.
     pub(crate) state: State,
-    /// Who asked first.
+    /// Author of the first request.
     pub(crate) author: String,
     /// When it was made, seconds since 1970 (UTC).
     pub(crate) made: i64,
 }
 
-/// What came out of a translation.
+/// A result of a translation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// The text.
     Output,
-    /// What was found, as `ncc --report` writes it.
+    /// The report, as `ncc --report` writes it.
     Report,
     /// For each line of the output the first line of the source that it comes from, or 0: a list, JSON.
     Map,
@@ -149,7 +149,7 @@ impl Store {
         })
     }
 
-    /// What came out of a translation; none of a certificate that nobody has asked for.
+    /// A result of a translation; none of a certificate before the first request for it.
     pub(crate) fn outcome(&self, id: &str, outcome: Outcome) -> Result<Option<Content>, StoreError> {
         self.database.read(|from| {
             let column = outcome.column();
