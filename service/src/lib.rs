@@ -12,12 +12,14 @@
 //!
 //! It answers this computer alone, without a login. Not here: the compiler (`ncc_engine`, `ncc_driver`), the command line.
 
+mod access;
 mod api;
 mod case_study;
 mod compiler;
 mod http;
 mod log;
 mod machines;
+mod rights;
 mod store;
 mod translating;
 mod work;
@@ -32,6 +34,7 @@ use axum::extract::DefaultBodyLimit;
 use axum::{Router, middleware};
 use tokio::sync::watch;
 
+use self::access::Caller;
 use self::case_study::{Remote, Shelf};
 use self::http::arrival::{self, Arrivals};
 use self::http::{Problem, connections, gate};
@@ -115,7 +118,7 @@ pub enum OpenError {
 struct Shared {
     shelf: Shelf,
     /// The store, where this process has it.
-    own: Option<Arc<Store>>,
+    own: Option<Store>,
     pool: Pool,
     /// Bytes of a program and of a document at most.
     largest: u64,
@@ -124,30 +127,38 @@ struct Shared {
 }
 
 impl Shared {
+    /// The store of this process, for a user.
+    fn store_of(&self, caller: &Caller) -> Result<Store, Problem> {
+        Ok(self.own.as_ref().ok_or_else(Problem::no_address)?.of(caller.who()))
+    }
+
     /// Does something with the documents, on a thread that may wait.
     async fn keep<T: Send + 'static>(
         &self,
+        caller: &Caller,
         work: impl FnOnce(&Shelf) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let shelf = self.shelf.clone();
+        let shelf = self.shelf.of(caller.who());
         tokio::task::spawn_blocking(move || work(&shelf)).await.unwrap_or_else(|_| Err(Problem::fault()))
     }
 
     /// Does something with the store of this process, on a thread that may wait.
     async fn store<T: Send + 'static>(
         &self,
+        caller: &Caller,
         work: impl FnOnce(&Store) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let store = self.own.clone().ok_or_else(Problem::no_address)?;
+        let store = self.store_of(caller)?;
         tokio::task::spawn_blocking(move || work(&store)).await.unwrap_or_else(|_| Err(Problem::fault()))
     }
 
     /// Does work of the compiler with the store of this process, within its limits.
     async fn compile<T: Send + 'static>(
         &self,
+        caller: &Caller,
         work: impl FnOnce(&Store) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let store = self.own.clone().ok_or_else(Problem::no_address)?;
+        let store = self.store_of(caller)?;
         let done = self.pool.run(move || work(&store)).await;
         done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
     }
@@ -155,9 +166,10 @@ impl Shared {
     /// The same for work that waits as long as it takes for its turn.
     async fn compile_in_turn<T: Send + 'static>(
         &self,
+        caller: &Caller,
         work: impl FnOnce(&Store) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let store = self.own.clone().ok_or_else(Problem::no_address)?;
+        let store = self.store_of(caller)?;
         let done = self.pool.run_in_turn(move || work(&store)).await;
         done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
     }
@@ -165,9 +177,10 @@ impl Shared {
     /// Does work of the compiler, within its limits.
     async fn work<T: Send + 'static>(
         &self,
+        caller: &Caller,
         work: impl FnOnce(&Shelf) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let shelf = self.shelf.clone();
+        let shelf = self.shelf.of(caller.who());
         match self.pool.run(move || work(&shelf)).await {
             // A program that was interrupted with the process is not a wrong one.
             Ok(Err(_)) if ncc_exec::halt::is_asked() => Err(Problem::busy("the service ends")),
@@ -214,7 +227,7 @@ impl Service {
         let own = match part {
             Part::All { database } | Part::Persistence { database } => {
                 let store = Store::open(database).map_err(|error| OpenError::Database(error.to_string()))?;
-                Some(Arc::new(store))
+                Some(store)
             }
             Part::Transpiler { .. } | Part::Output { .. } => None,
         };

@@ -22,10 +22,12 @@ use ncc_machines::{Profile, ProfileError};
 use serde_json::{Value, json};
 
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 
 const TOML: &str = "application/toml";
 const JSON: &str = "application/json";
@@ -41,9 +43,13 @@ pub(crate) fn routes() -> Router<Arc<Shared>> {
 }
 
 /// Lists machines.
-async fn list(State(shared): State<Arc<Shared>>, RawQuery(query): RawQuery) -> Result<Response, Problem> {
+async fn list(
+    State(shared): State<Arc<Shared>>,
+    caller: Caller,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let own = shared.store(|store| Ok(store.machines()?)).await?;
+    let own = shared.store(&caller, |store| Ok(store.machines()?)).await?;
     let own = own.into_iter().map(|machine| {
         let profile = profile(&machine.text).ok();
         let dialect =
@@ -88,6 +94,7 @@ fn faults(wrong: &[ProfileError], text: &str) -> Value {
 /// Gives a profile.
 async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -96,7 +103,7 @@ async fn read(
     if let Some(text) = ncc_machines::shipped_text(&name) {
         return Ok(([(CONTENT_TYPE, TOML)], text).into_response());
     }
-    let machine = shared.store(move |store| Ok(store.machine(&name)?)).await?;
+    let machine = shared.store(&caller, move |store| Ok(store.machine(&name)?)).await?;
     let tag = etag(&machine.tag, "");
     if is_known(&headers, &tag) {
         return Ok(not_modified(tag));
@@ -108,12 +115,14 @@ async fn read(
 /// Keeps a profile.
 async fn keep(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may(Act::Administer, "")?;
     let over = expected(&headers)?;
     if !matches!(body::media(&headers)?.as_deref(), Some(TOML | JSON)) {
         return Err(Problem::media("application/toml, or application/json for a machine.json"));
@@ -134,7 +143,8 @@ async fn keep(
         return Err(Problem::exists(format!("`{name}` comes with ncc")).help("give yours another name"));
     }
     let place = format!("/api/v1/machines/{}", encoded(&name));
-    let (tag, is_new) = shared.store(move |store| Ok(store.keep_machine(&name, &text, &over)?)).await?;
+    let (tag, is_new) =
+        shared.store(&caller, move |store| Ok(store.keep_machine(&name, &text, &over)?)).await?;
     let tag = etag(&tag, "");
     Ok(match is_new {
         true => (StatusCode::CREATED, [(LOCATION, place), (ETAG, tag)]).into_response(),
@@ -145,12 +155,14 @@ async fn keep(
 /// Deletes a profile.
 async fn delete(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may(Act::Administer, "")?;
     let over = expected(&headers)?;
-    shared.store(move |store| Ok(store.delete_machine(&name, &over)?)).await?;
+    shared.store(&caller, move |store| Ok(store.delete_machine(&name, &over)?)).await?;
     Ok(StatusCode::NO_CONTENT)
 }

@@ -9,7 +9,9 @@ use serde_json::{Value, json};
 use tokio::sync::watch;
 
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::Problem;
+use crate::rights::Who;
 use crate::store::{End, Store, Task};
 use crate::translating::{Asked, translate};
 
@@ -27,13 +29,14 @@ enum Left {
 
 /// Works until it is asked to stop.
 pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
+    let ncc = Caller::of(Who::default());
     let Ok(name) = crate::api::new_id() else {
         crate::log::fault("a worker has no name: the system gives no random bytes");
         return;
     };
     while !*stop.borrow() {
         let worker = name.clone();
-        let claimed = shared.store(move |store| Ok(store.claim(&worker, CLAIM)?)).await;
+        let claimed = shared.store(&ncc, move |store| Ok(store.claim(&worker, CLAIM)?)).await;
         let task = match claimed {
             Ok(Some(task)) => task,
             Ok(None) => {
@@ -49,7 +52,7 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
         let done = do_task(&shared, &task, &mut stop).await;
         let worker = name.clone();
         let ended = shared
-            .store(move |store| {
+            .store(&ncc, move |store| {
                 match done {
                     Ok((end, result)) => {
                         store.end_task(&worker, &task, end, &result.to_string())?;
@@ -74,8 +77,8 @@ async fn do_task(
     task: &Task,
     stop: &mut watch::Receiver<bool>,
 ) -> Result<(End, Value), Left> {
-    let own = task.clone();
-    let mut work = std::pin::pin!(shared.compile_in_turn(move |store| Ok(translated(store, &own))));
+    let (own, author) = (task.clone(), Caller::of(Who::local(&task.author)));
+    let mut work = std::pin::pin!(shared.compile_in_turn(&author, move |store| Ok(translated(store, &own))));
     loop {
         tokio::select! {
             done = &mut work => {
@@ -87,7 +90,7 @@ async fn do_task(
             () = tokio::time::sleep(GLANCE) => {}
         }
         let job = task.job.clone();
-        if shared.store(move |store| Ok(store.job(&job)?.is_cancelled)).await.unwrap_or(false) {
+        if shared.store(&author, move |store| Ok(store.job(&job)?.is_cancelled)).await.unwrap_or(false) {
             return Err(Left::Cancelled);
         }
     }

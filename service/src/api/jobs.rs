@@ -27,6 +27,7 @@ use serde_json::{Map, Value, json};
 use super::document::folder;
 use super::programs::new_id;
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::body::{self, LISTED};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -87,16 +88,17 @@ fn taken_apart(mut object: Map<String, Value>) -> Result<(Which, Asked), Problem
 /// Begins a job.
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let (which, asked) = taken_apart(body::json(&headers, body)?)?;
-    let (id, author) = (new_id()?, shared.author.clone());
+    let (id, author) = (new_id()?, caller.name().to_owned());
     let place = format!("/api/v1/jobs/{id}");
     let job = shared
-        .store(move |store| {
+        .store(&caller, move |store| {
             let mut programs = Vec::new();
             for program in &which.programs {
                 programs.push((program.clone(), store.program(program)?.number));
@@ -118,13 +120,14 @@ pub(super) async fn create(
 /// Lists jobs.
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let before = query.one("before")?;
     let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
     query.end("before, limit")?;
-    let jobs = shared.store(move |store| Ok(store.jobs(before.as_deref(), most)?)).await?;
+    let jobs = shared.store(&caller, move |store| Ok(store.jobs(before.as_deref(), most)?)).await?;
     let next = jobs.last().filter(|_| jobs.len() == most as usize).map(|last| last.id.clone());
     let jobs: Vec<Value> = jobs.iter().map(told).collect();
     Ok(http::json(&json!({ "jobs": jobs, "next": next })))
@@ -133,23 +136,25 @@ pub(super) async fn list(
 /// Tells how far a job is.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let job = shared.store(move |store| Ok(store.job(&id)?)).await?;
+    let job = shared.store(&caller, move |store| Ok(store.job(&id)?)).await?;
     Ok(http::json(&told(&job)))
 }
 
 /// Cancels a job.
 pub(super) async fn cancel(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let job = shared
-        .store(move |store| {
+        .store(&caller, move |store| {
             store.job(&id)?;
             store.cancel(&id)?;
             Ok(store.job(&id)?)
@@ -161,6 +166,7 @@ pub(super) async fn cancel(
 /// Lists what became of each program.
 pub(super) async fn results(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
@@ -169,7 +175,7 @@ pub(super) async fn results(
     let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
     query.end("after, limit")?;
     let all = shared
-        .store(move |store| {
+        .store(&caller, move |store| {
             store.job(&id)?;
             Ok(store.results(&id, after, most)?)
         })
@@ -196,6 +202,7 @@ pub(super) async fn results(
 /// State of a reader of events.
 struct Watching {
     shared: Arc<Shared>,
+    caller: Caller,
     id: String,
     told: Option<Value>,
     over: bool,
@@ -204,20 +211,21 @@ struct Watching {
 /// Tells how far a job is, as it goes on.
 pub(super) async fn events(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let known = id.clone();
-    shared.store(move |store| Ok(store.job(&known)?)).await?;
-    let watching = Watching { shared, id, told: None, over: false };
+    shared.store(&caller, move |store| Ok(store.job(&known)?)).await?;
+    let watching = Watching { shared, caller, id, told: None, over: false };
     let events = stream::unfold(watching, async |mut watching| {
         loop {
             if watching.over || ncc_exec::halt::is_asked() {
                 return None;
             }
             let id = watching.id.clone();
-            let job = watching.shared.store(move |store| Ok(store.job(&id)?)).await.ok()?;
+            let job = watching.shared.store(&watching.caller, move |store| Ok(store.job(&id)?)).await.ok()?;
             let now = told(&job);
             watching.over = job.ended.is_some();
             if watching.told.as_ref() != Some(&now) {

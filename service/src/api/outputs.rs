@@ -23,6 +23,7 @@ use ncc_engine::Engine;
 use serde_json::{Value, json};
 
 use crate::Shared;
+use crate::access::Caller;
 use crate::compiler::{DONE, REFUSED, put_machine, refusal};
 use crate::http::Problem;
 use crate::http::conditions::{etag, is_known, not_modified};
@@ -180,6 +181,7 @@ fn make(store: &Store, found: &Found, asked: &Asked, output: Output, most: u64) 
 /// Gives an output.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path((id, what)): Path<(String, String)>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -189,7 +191,7 @@ pub(super) async fn read(
     let mut asked = Asked::of(query.as_deref(), output)?;
     let most = shared.largest;
     let made = shared
-        .compile(move |store| {
+        .compile(&caller, move |store| {
             let found = find(store, &id, &mut asked)?;
             make(store, &found, &asked, output, most)
         })

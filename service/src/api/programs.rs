@@ -13,10 +13,12 @@ use serde_json::{Value, json};
 use super::document::{changed, details, dialect, document, folder, machine, message_fits, said, tags, told};
 use super::texts::receive;
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::body::{self, LISTED};
 use crate::http::conditions::expected;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 use crate::store::{Details, Once, Said, Wanted, digest};
 
 /// The header of a request that may be sent again.
@@ -36,6 +38,7 @@ fn once(headers: &HeaderMap, asked: &str) -> Result<Option<Once>, Problem> {
 /// Keeps a new program.
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Body,
@@ -44,12 +47,13 @@ pub(super) async fn create(
     let once = once(&headers, &asked)?;
     let mut query = Query::of(Some(&asked));
     let details = details(&mut query)?;
-    let said = said(&mut query, &shared.author)?;
+    caller.may(Act::Change, &details.folder)?;
+    let said = said(&mut query, caller.name())?;
     query.end("name, folder, dialect, machine, tag, message")?;
-    let text = receive(&shared, &headers, body).await?;
+    let text = receive(&shared, &caller, &headers, body).await?;
     let id = new_id()?;
     let made = shared
-        .store(move |store| {
+        .store(&caller, move |store| {
             let aside = text.aside();
             store.create_program(&id, &details, text, &said, once.as_ref()).or_else(|error| {
                 store.forget(aside)?;
@@ -72,6 +76,7 @@ pub(crate) fn new_id() -> Result<String, Problem> {
 /// Lists programs.
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
@@ -89,7 +94,7 @@ pub(super) async fn list(
     };
     query.end("folder, under, name, tag, dialect, machine, deleted, after, limit")?;
     let most = wanted.most as usize;
-    let listed = shared.store(move |store| Ok(store.programs(&wanted)?)).await?;
+    let listed = shared.store(&caller, move |store| Ok(store.programs(&wanted)?)).await?;
     let next = listed.last().filter(|_| listed.len() == most).map(|last| last.program.clone());
     let programs: Vec<Value> = listed.iter().map(document).collect();
     Ok(http::json(&json!({ "programs": programs, "next": next })))
@@ -98,12 +103,13 @@ pub(super) async fn list(
 /// Tells of a program.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let found = shared.store(move |store| Ok(store.program(&id)?)).await?;
+    let found = shared.store(&caller, move |store| Ok(store.program(&id)?)).await?;
     Ok(told(&found, &headers))
 }
 
@@ -161,6 +167,7 @@ impl Patch {
 /// Changes what is said of a program.
 pub(super) async fn change(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -174,9 +181,11 @@ pub(super) async fn change(
     }
     let text = body::whole(body, DESCRIPTION)?;
     let mut patch = Patch::read(&text)?;
-    let said = Said { author: shared.author.clone(), message: std::mem::take(&mut patch.message) };
+    let said = Said { author: caller.name().to_owned(), message: std::mem::take(&mut patch.message) };
     let made = shared
-        .store(move |store| Ok(store.change_details(&id, |details| patch.put(details), &said, &over)?))
+        .store(&caller, move |store| {
+            Ok(store.change_details(&id, |details| patch.put(details), &said, &over)?)
+        })
         .await?;
     Ok(changed(&made, None))
 }
@@ -184,15 +193,16 @@ pub(super) async fn change(
 /// Deletes a program.
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
-    let said = said(&mut query, &shared.author)?;
+    let said = said(&mut query, caller.name())?;
     query.end("message")?;
     let over = expected(&headers)?;
-    let made = shared.store(move |store| Ok(store.delete_program(&id, &said, &over)?)).await?;
+    let made = shared.store(&caller, move |store| Ok(store.delete_program(&id, &said, &over)?)).await?;
     Ok(changed(&made, None))
 }
 

@@ -21,6 +21,7 @@ use serde_json::{Value, json};
 use super::document::message_fits;
 use super::translations::document;
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::body;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -52,12 +53,13 @@ fn told(step: &Step) -> Value {
 /// Lists what a translation has gone through.
 pub(super) async fn list(
     Here(shared): Here<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let steps = shared
-        .store(move |store| {
+        .store(&caller, move |store| {
             store.translation(&id)?;
             Ok(store.steps(&id)?)
         })
@@ -69,6 +71,7 @@ pub(super) async fn list(
 /// Puts a translation into another state.
 pub(super) async fn step(
     Here(shared): Here<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -77,9 +80,9 @@ pub(super) async fn step(
     Query::of(query.as_deref()).end("")?;
     let asked: Asked = body::json(&headers, body)?;
     message_fits(&asked.message)?;
-    let said = Said { author: shared.author.clone(), message: asked.message };
+    let said = Said { author: caller.name().to_owned(), message: asked.message };
     let document = shared
-        .compile(move |store| {
+        .compile(&caller, move |store| {
             let of = store.translation(&id)?;
             may_step(store, &of, asked.state)?;
             let holds =

@@ -11,6 +11,7 @@ use futures_util::{StreamExt, stream};
 
 use super::document::{changed, number, said, tag};
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::Problem;
 use crate::http::body::{self, encoded};
 use crate::http::conditions::{expected, is_known, not_modified};
@@ -23,6 +24,7 @@ use crate::store::{Content, Receiving, Revision};
 /// It is of another type, too large, or broke off: nothing of it is kept then.
 pub(super) async fn receive(
     shared: &Arc<Shared>,
+    caller: &Caller,
     headers: &HeaderMap,
     body: Body,
 ) -> Result<Receiving, Problem> {
@@ -41,21 +43,21 @@ pub(super) async fn receive(
             }
             Ok(piece) => {
                 if text.take(&piece) {
-                    text = put_aside(shared, text).await?;
+                    text = put_aside(shared, caller, text).await?;
                 }
                 None
             }
         };
         if let Some(problem) = refused {
             let aside = text.aside();
-            shared.store(move |store| Ok(store.forget(aside)?)).await?;
+            shared.store(caller, move |store| Ok(store.forget(aside)?)).await?;
             return Err(problem);
         }
     }
     Ok(text)
 }
 
-async fn put_aside(shared: &Arc<Shared>, mut text: Receiving) -> Result<Receiving, Problem> {
+async fn put_aside(shared: &Arc<Shared>, caller: &Caller, mut text: Receiving) -> Result<Receiving, Problem> {
     let put = move |store: &crate::store::Store| {
         let before = text.aside();
         match store.put_aside(&mut text) {
@@ -66,24 +68,25 @@ async fn put_aside(shared: &Arc<Shared>, mut text: Receiving) -> Result<Receivin
             }
         }
     };
-    shared.store(put).await
+    shared.store(caller, put).await
 }
 
 /// Keeps another text of a program.
 pub(super) async fn change(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Body,
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
-    let said = said(&mut query, &shared.author)?;
+    let said = said(&mut query, caller.name())?;
     query.end("message")?;
     let over = expected(&headers)?;
-    let text = receive(&shared, &headers, body).await?;
+    let text = receive(&shared, &caller, &headers, body).await?;
     let made = shared
-        .store(move |store| {
+        .store(&caller, move |store| {
             let aside = text.aside();
             store.change_text(&id, text, &said, &over).or_else(|error| {
                 store.forget(aside)?;
@@ -97,29 +100,31 @@ pub(super) async fn change(
 /// Gives the text of a program.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let found = shared.store(move |store| Ok(store.program(&id)?)).await?;
-    Ok(given(&shared, found, &headers))
+    let found = shared.store(&caller, move |store| Ok(store.program(&id)?)).await?;
+    Ok(given(&shared, caller, found, &headers))
 }
 
 /// Gives the text of a program as it was.
 pub(super) async fn read_revision(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path((id, revision)): Path<(String, String)>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let revision = number(&revision)?;
-    let found = shared.store(move |store| Ok(store.revision(&id, revision)?)).await?;
-    Ok(given(&shared, found, &headers))
+    let found = shared.store(&caller, move |store| Ok(store.revision(&id, revision)?)).await?;
+    Ok(given(&shared, caller, found, &headers))
 }
 
-fn given(shared: &Arc<Shared>, of: Revision, headers: &HeaderMap) -> Response {
+fn given(shared: &Arc<Shared>, caller: Caller, of: Revision, headers: &HeaderMap) -> Response {
     let tag = tag(&of);
     if is_known(headers, &tag) {
         return not_modified(tag);
@@ -131,18 +136,19 @@ fn given(shared: &Arc<Shared>, of: Revision, headers: &HeaderMap) -> Response {
         (CONTENT_DISPOSITION, file),
         (ETAG, tag),
     ];
-    (headers, Body::from_stream(pieces(Arc::clone(shared), of.content))).into_response()
+    (headers, Body::from_stream(pieces(Arc::clone(shared), caller, of.content))).into_response()
 }
 
 /// The pieces of a content. A reader that cannot be given all of them gets less than the length that was stated.
 fn pieces(
     shared: Arc<Shared>,
+    caller: Caller,
     content: Content,
 ) -> impl stream::Stream<Item = Result<Bytes, axum::BoxError>> {
-    stream::try_unfold((shared, content, 0_u32), async |(shared, content, number)| {
+    stream::try_unfold((shared, caller, content, 0_u32), async |(shared, caller, content, number)| {
         let own = content.clone();
-        let piece = shared.store(move |store| Ok(store.piece(&own, number)?)).await;
+        let piece = shared.store(&caller, move |store| Ok(store.piece(&own, number)?)).await;
         let piece = piece.map_err(|_| axum::BoxError::from("the store"))?;
-        Ok(piece.map(|piece| (Bytes::from(piece), (shared, content, number + 1))))
+        Ok(piece.map(|piece| (Bytes::from(piece), (shared, caller, content, number + 1))))
     })
 }

@@ -19,6 +19,7 @@ use serde_json::{Map, Value, json};
 
 use super::programs::new_id;
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::body::{self, LISTED};
 use crate::http::conditions::{etag, is_known, not_modified};
 use crate::http::query::Query;
@@ -55,15 +56,16 @@ pub(super) fn short(asked: &Value) -> Value {
 /// Translates a program.
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let asked: Asked = body::json(&headers, body)?;
-    let (id, author) = (new_id()?, shared.author.clone());
+    let (id, author) = (new_id()?, caller.name().to_owned());
     let (document, place, is_new) = shared
-        .compile(move |store| {
+        .compile(&caller, move |store| {
             let (made, is_new) = translate(store, asked, id, &author)?;
             Ok((document(store, &made)?, format!("/api/v1/translations/{}", made.id), is_new))
         })
@@ -75,6 +77,7 @@ pub(super) async fn create(
 /// Lists translations.
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
@@ -84,7 +87,7 @@ pub(super) async fn list(
     let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
     query.end("program, state, after, limit")?;
     let (all, next) = shared
-        .store(move |store| {
+        .store(&caller, move |store| {
             let all = store.translations(program.as_deref(), state, &after, most)?;
             let next = all.last().filter(|_| all.len() == most as usize).map(|last| last.id.clone());
             let all = all.iter().map(|own| document(store, own)).collect::<Result<Vec<_>, _>>()?;
@@ -97,17 +100,19 @@ pub(super) async fn list(
 /// Tells of a translation. It has no tag: what is stale changes with others.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(id): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let found = shared.store(move |store| document(store, &store.translation(&id)?)).await?;
+    let found = shared.store(&caller, move |store| document(store, &store.translation(&id)?)).await?;
     Ok(http::json(&found))
 }
 
 /// Gives what came out of a translation.
 pub(super) async fn outcome(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path((id, what)): Path<(String, String)>,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -126,14 +131,14 @@ pub(super) async fn outcome(
     }
     let bytes = match outcome {
         Outcome::Certificate => {
-            shared.compile(move |store| certificate(store, &store.translation(&id)?)).await?
+            shared.compile(&caller, move |store| certificate(store, &store.translation(&id)?)).await?
         }
         Outcome::Output | Outcome::Report | Outcome::Map => {
             let whole = move |store: &Store| {
                 let found = store.outcome(&id, outcome)?;
                 Ok(found.map(|content| store.whole(&content)).transpose()?.unwrap_or_default())
             };
-            shared.store(whole).await?
+            shared.store(&caller, whole).await?
         }
     };
     Ok(([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], bytes).into_response())

@@ -15,6 +15,7 @@ use percent_encoding::percent_decode_str;
 use super::document::{self, AFTER, CMF, CMF_REFUSED};
 use super::shelf::Found;
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::Problem;
 use crate::http::body;
 use crate::http::conditions::{etag, is_known, not_modified};
@@ -39,6 +40,7 @@ fn name_and_query(path: &str, query: Option<&str>) -> Result<(String, String), P
 /// Gives an output.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     OriginalUri(address): OriginalUri,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -53,7 +55,7 @@ pub(super) async fn read(
         Type::Cmf => (&[CMF, CMF_REFUSED], "cmf", "text/plain; charset=utf-8"),
     };
     let found = shared
-        .keep({
+        .keep(&caller, {
             let name = name.clone();
             move |shelf| shelf.find(&name, wanted)
         })
@@ -63,7 +65,7 @@ pub(super) async fn read(
         return Ok(not_modified(tag));
     }
     let body = match kind {
-        Type::Csv => shared.work(move |_| rows(&name, found)).await?,
+        Type::Csv => shared.work(&caller, move |_| rows(&name, found)).await?,
         Type::Cmf => list(found)?,
     };
     Ok(([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], body).into_response())

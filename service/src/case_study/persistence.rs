@@ -17,6 +17,7 @@ use serde_json::json;
 use super::document::{self, AFTER, BEFORE, CMF, CMF_REFUSED, WHOLE_MEDIA, Whole};
 use super::shelf::{Found, whole};
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::body::{self, LISTED, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
@@ -39,13 +40,14 @@ pub(super) enum Form {
 /// Lists documents.
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let after = query.one("after")?.unwrap_or_default();
     let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
     query.end("after, limit")?;
-    let listed = shared.keep(move |shelf| shelf.list(&after, most)).await?;
+    let listed = shared.keep(&caller, move |shelf| shelf.list(&after, most)).await?;
     // A full page has a next one, which may be empty.
     let next = listed.last().filter(|_| listed.len() == most as usize).map(|last| last.name.clone());
     Ok(http::json(&json!({ "documents": listed, "next": next })))
@@ -66,6 +68,7 @@ fn sent(headers: &HeaderMap, name: &str, body: &[u8]) -> Result<(Parts, [String;
 /// Stores a payload under a name that is free.
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -75,7 +78,7 @@ pub(super) async fn create(
     let body = body::whole(body, shared.largest)?;
     let place = format!("/persistence/{}", encoded(&name));
     let tag = shared
-        .work(move |shelf| {
+        .work(&caller, move |shelf| {
             let (parts, of) = sent(&headers, &name, &body)?;
             shelf.create(&name, &of, parts)
         })
@@ -86,6 +89,7 @@ pub(super) async fn create(
 /// Stores a payload in the place of another one.
 pub(super) async fn update(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -95,7 +99,7 @@ pub(super) async fn update(
     let over = expected(&headers)?;
     let body = body::whole(body, shared.largest)?;
     let tag = shared
-        .work(move |shelf| {
+        .work(&caller, move |shelf| {
             let (parts, of) = sent(&headers, &name, &body)?;
             shelf.replace(&name, &of, parts, &over)
         })
@@ -106,29 +110,32 @@ pub(super) async fn update(
 /// Deletes a document.
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<StatusCode, Problem> {
     Query::of(query.as_deref()).end("")?;
     let over = expected(&headers)?;
-    shared.keep(move |shelf| shelf.delete(&name, &over)).await?;
+    shared.keep(&caller, move |shelf| shelf.delete(&name, &over)).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
 /// Gives a payload.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    read_in(&shared, name, query.as_deref(), &headers, Form::Stored).await
+    read_in(&shared, &caller, name, query.as_deref(), &headers, Form::Stored).await
 }
 
 /// Gives a payload in a form, unless the address names another one.
 pub(super) async fn read_in(
     shared: &Arc<Shared>,
+    caller: &Caller,
     name: String,
     query: Option<&str>,
     headers: &HeaderMap,
@@ -148,7 +155,7 @@ pub(super) async fn read_in(
         (_, None) => &[BEFORE, AFTER],
     };
     let found = shared
-        .keep({
+        .keep(caller, {
             let name = name.clone();
             move |shelf| shelf.find(&name, wanted)
         })
@@ -169,7 +176,7 @@ pub(super) async fn read_in(
     }
     let body = match form {
         Form::Stored => payload_of(found)?.1,
-        _ => shared.work(move |_| rewritten(&name, found, form)).await?,
+        _ => shared.work(caller, move |_| rewritten(&name, found, form)).await?,
     };
     Ok(([(CONTENT_TYPE, "application/json".to_owned()), (ETAG, tag)], body).into_response())
 }

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use super::Remote;
 use super::document::Whole;
 use crate::http::Problem;
+use crate::rights::Who;
 use crate::store::{Condition, Listed, Machine, Parts, Store};
 
 /// The place of documents.
 #[derive(Clone)]
 pub(crate) enum Shelf {
     /// In the store of this process.
-    Here(Arc<Store>),
+    Here(Store),
     /// By a PERSISTENCE elsewhere.
     There(Arc<Remote>),
 }
@@ -35,6 +36,14 @@ fn heed() -> Result<(), Problem> {
 }
 
 impl Shelf {
+    /// The same shelf for a user.
+    pub(crate) fn of(&self, who: Arc<Who>) -> Shelf {
+        match self {
+            Shelf::Here(store) => Shelf::Here(store.of(who)),
+            Shelf::There(remote) => Shelf::There(Arc::clone(remote)),
+        }
+    }
+
     /// Keeps a document under a name that is free; gives its tag.
     pub(crate) fn create(&self, name: &str, of: &[String; 2], parts: Parts) -> Result<String, Problem> {
         heed()?;

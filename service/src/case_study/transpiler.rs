@@ -16,6 +16,7 @@ use super::document::{Setting, process};
 use super::persistence::{Form, read_in};
 use super::shelf::Shelf;
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected};
 use crate::http::query::Query;
@@ -76,6 +77,7 @@ fn program(headers: &HeaderMap, body: Result<Bytes, BytesRejection>, most: u64) 
 /// Processes a program, and stores its document under a name that is free.
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -86,7 +88,7 @@ pub(super) async fn create(
     let place = format!("/transpiler/{}", encoded(&name));
     let most = shared.largest;
     let (tag, account) = shared
-        .work(move |shelf| {
+        .work(&caller, move |shelf| {
             with_profile(&mut setting, shelf)?;
             let made = process(&name, &program, &setting, most)?;
             Ok((shelf.create(&name, &made.of, made.parts)?, made.account))
@@ -100,6 +102,7 @@ pub(super) async fn create(
 /// that one, unless the address names others.
 pub(super) async fn update(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
@@ -110,7 +113,7 @@ pub(super) async fn update(
     let program = program(&headers, body, shared.largest)?;
     let most = shared.largest;
     let (tag, account) = shared
-        .work(move |shelf| {
+        .work(&caller, move |shelf| {
             let there = shelf.find(&name, &[])?;
             if setting.dialect.is_none() {
                 setting.dialect = Some(there.dialect);
@@ -129,9 +132,10 @@ pub(super) async fn update(
 /// Gives the payload.
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Name(name): Name,
     RawQuery(query): RawQuery,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    read_in(&shared, name, query.as_deref(), &headers, Form::Printed).await
+    read_in(&shared, &caller, name, query.as_deref(), &headers, Form::Printed).await
 }

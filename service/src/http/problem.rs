@@ -58,6 +58,7 @@ const CONTENT: Kind = ("content", StatusCode::UNPROCESSABLE_ENTITY, "the body ca
 const NOT_MADE: Kind = ("not-made", StatusCode::UNPROCESSABLE_ENTITY, "this output cannot be made");
 const TOO_LONG: Kind = ("too-long", StatusCode::UNPROCESSABLE_ENTITY, "the program takes too long");
 const STRANGER: Kind = ("stranger", StatusCode::FORBIDDEN, "the request is not meant for this server");
+const FORBIDDEN: Kind = ("forbidden", StatusCode::FORBIDDEN, "you have no right to this");
 const METHOD: Kind = ("method", StatusCode::METHOD_NOT_ALLOWED, "the address does not take this method");
 const REUSED: Kind = ("reused", StatusCode::UNPROCESSABLE_ENTITY, "the key was used for another request");
 const FULL: Kind = ("full", StatusCode::INSUFFICIENT_STORAGE, "the disk is full");
@@ -193,6 +194,11 @@ impl Problem {
     /// The request is not meant for this server.
     pub(crate) fn stranger() -> Problem {
         Problem::of(STRANGER, "its Host or its Origin is another one")
+    }
+
+    /// The user has no right to this.
+    pub(crate) fn forbidden(detail: impl Into<String>) -> Problem {
+        Problem::of(FORBIDDEN, detail)
     }
 
     /// The address does not take the method.

@@ -18,10 +18,12 @@ mod translations;
 
 use std::fmt;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
 use self::database::Database;
+use crate::rights::Who;
 
 pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
@@ -75,9 +77,13 @@ pub enum Place {
     Server(String),
 }
 
-/// The store. It is shared by all requests.
+/// The store, for a user. All of them share the database.
+#[derive(Clone)]
 pub(crate) struct Store {
-    database: Database,
+    database: Arc<Database>,
+    /// The user whose rights hold, and who is the author of changes.
+    #[expect(dead_code, reason = "rights follow")]
+    who: Arc<Who>,
 }
 
 impl Store {
@@ -86,9 +92,14 @@ impl Store {
     /// # Errors
     /// It is no database of ncc, one of a later ncc, or cannot be reached or written.
     pub(crate) fn open(place: &Place) -> Result<Store, StoreError> {
-        let store = Store { database: Database::open(place)? };
+        let store = Store { database: Arc::new(Database::open(place)?), who: Arc::new(Who::default()) };
         store.tidy()?;
         Ok(store)
+    }
+
+    /// The same store for a user.
+    pub(crate) fn of(&self, who: Arc<Who>) -> Store {
+        Store { database: Arc::clone(&self.database), who }
     }
 }
 
