@@ -17,8 +17,8 @@ mod api;
 mod case_study;
 mod compiler;
 mod http;
-mod log;
 mod machines;
+mod observe;
 mod rights;
 mod store;
 mod translating;
@@ -37,7 +37,9 @@ use tokio::sync::watch;
 use self::access::Caller;
 use self::case_study::{Remote, Shelf};
 use self::http::arrival::{self, Arrivals};
-use self::http::{Problem, connections, gate};
+use self::http::{Problem, compression, connections, gate, openapi};
+use self::observe::Counters;
+pub use self::observe::{Form as LogForm, Level as LogLevel, log};
 pub use self::store::Place;
 use self::store::Store;
 use self::work::Pool;
@@ -120,6 +122,7 @@ struct Shared {
     /// The store, where this process has it.
     own: Option<Store>,
     pool: Pool,
+    counters: Arc<Counters>,
     /// Bytes of a program and of a document at most.
     largest: u64,
     /// Author of all changes: without a login, there is one user.
@@ -231,7 +234,7 @@ impl Service {
             }
             Part::Transpiler { .. } | Part::Output { .. } => None,
         };
-        let (routes, elsewhere) = match part {
+        let (addresses, elsewhere) = match part {
             Part::All { .. } => (
                 case_study::transpiler()
                     .merge(case_study::persistence())
@@ -244,14 +247,21 @@ impl Service {
             Part::Transpiler { persistence } => (case_study::transpiler(), Some(persistence)),
             Part::Output { persistence } => (case_study::output(), Some(persistence)),
         };
+        let routes = openapi::described(addresses.merge(observe::routes()));
         let there = || Shelf::There(Arc::new(Remote::at(elsewhere.map_or("", String::as_str))));
         let shelf = own.clone().map_or_else(there, Shelf::Here);
         let listener = TcpListener::bind(listen).map_err(OpenError::Address)?;
         let here = listener.local_addr().map_err(OpenError::Address)?;
         let threads = std::thread::available_parallelism().map_or(2, usize::from);
         let pool = Pool::new(threads, limits.waiting, limits.work);
-        let shared =
-            Arc::new(Shared { shelf, own, pool, largest: limits.largest, author: author.to_owned() });
+        let shared = Arc::new(Shared {
+            shelf,
+            own,
+            pool,
+            counters: Arc::new(Counters::new()),
+            largest: limits.largest,
+            author: author.to_owned(),
+        });
         let workers = if matches!(part, Part::All { .. }) { threads } else { 0 };
         Ok(Service { listener, here, routes, shared, threads, workers, limits })
     }
@@ -278,7 +288,10 @@ impl Service {
             .method_not_allowed_fallback(async || Problem::method())
             .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
             .layer(middleware::from_fn_with_state(Arrivals::new(&self.limits), arrival::pass))
+            .layer(tower_http::compression::CompressionLayer::new())
+            .layer(middleware::map_response(compression::tag))
             .layer(middleware::from_fn_with_state(gate::Gate::new(self.here), gate::pass))
+            .layer(middleware::from_fn_with_state(Arc::clone(&self.shared.counters), observe::pass))
             .with_state(Arc::clone(&self.shared));
         runtime.block_on(async {
             self.listener.set_nonblocking(true)?;

@@ -9,17 +9,19 @@
 
 use std::sync::Arc;
 
-use axum::Router;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
 use axum::extract::{RawQuery, State};
 use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
-use axum::routing::get;
 use ncc_driver::machines::words::words;
 use ncc_machines::{Profile, ProfileError};
+use serde::Serialize;
 use serde_json::{Value, json};
+use utoipa::ToSchema;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
 
 use crate::Shared;
 use crate::access::Caller;
@@ -32,17 +34,38 @@ use crate::rights::Act;
 const TOML: &str = "application/toml";
 const JSON: &str = "application/json";
 
+/// Group of the addresses in the description.
+const TAG: &str = "machines";
+
 /// Bytes of a profile at most.
 const LARGEST: usize = 1 << 20;
 
 /// Addresses of machines.
-pub(crate) fn routes() -> Router<Arc<Shared>> {
-    Router::new()
-        .route("/api/v1/machines", get(list))
-        .route("/api/v1/machines/{name}", get(read).put(keep).delete(delete))
+pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
+    OpenApiRouter::new().routes(routes!(list)).routes(routes!(read, keep, delete))
+}
+
+/// A machine.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Machine)]
+struct MachineDocument {
+    /// Name in addresses, and of its profile.
+    name: String,
+    title: Option<String>,
+    /// Dialect of its control; none of a machine.json.
+    dialect: Option<String>,
+    /// It comes with ncc.
+    ships_with_ncc: bool,
+}
+
+/// All machines.
+#[derive(Debug, Serialize, ToSchema)]
+struct Machines {
+    machines: Vec<MachineDocument>,
 }
 
 /// Lists machines.
+#[utoipa::path(get, path = "/api/v1/machines", tag = TAG, responses((status = 200, body = Machines)))]
 async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -55,14 +78,14 @@ async fn list(
         let dialect =
             profile.as_ref().filter(|profile| !profile.any_control).map(|own| own.dialect.id.clone());
         let title = profile.map(|profile| profile.schema.title);
-        json!({ "name": machine.name, "title": title, "dialect": dialect, "ships_with_ncc": false })
+        MachineDocument { name: machine.name, title, dialect, ships_with_ncc: false }
     });
     let shipped = ncc_machines::shipped().iter().map(|profile| {
-        let title = &profile.schema.title;
-        json!({ "name": profile.id(), "title": title, "dialect": profile.dialect.id, "ships_with_ncc": true })
+        let (title, dialect) = (profile.schema.title.clone(), profile.dialect.id.clone());
+        let name = profile.id().to_owned();
+        MachineDocument { name, title: Some(title), dialect: Some(dialect), ships_with_ncc: true }
     });
-    let all: Vec<Value> = shipped.chain(own).collect();
-    Ok(http::json(&json!({ "machines": all })))
+    Ok(http::json(&Machines { machines: shipped.chain(own).collect() }))
 }
 
 /// A profile in either form.
@@ -91,7 +114,13 @@ fn faults(wrong: &[ProfileError], text: &str) -> Value {
     wrong.iter().map(fault).collect()
 }
 
-/// Gives a profile.
+/// Gives a profile, as its owner wrote it.
+#[utoipa::path(get, path = "/api/v1/machines/{name}", tag = TAG,
+    params(("name" = String, Path), ("If-None-Match" = Option<String>, Header)),
+    responses(
+        (status = 200, content((String = "application/toml"), (Value = "application/json"))),
+        (status = 304),
+    ))]
 async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -112,7 +141,14 @@ async fn read(
     Ok(([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], machine.text).into_response())
 }
 
-/// Keeps a profile.
+/// Keeps a profile, or a machine.json of the case study.
+#[utoipa::path(put, path = "/api/v1/machines/{name}", tag = TAG,
+    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    request_body(content((String = "application/toml"), (Value = "application/json"))),
+    responses(
+        (status = 201, headers(("Location" = String), ("ETag" = String))),
+        (status = 204, headers(("ETag" = String))),
+    ))]
 async fn keep(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -153,6 +189,9 @@ async fn keep(
 }
 
 /// Deletes a profile.
+#[utoipa::path(delete, path = "/api/v1/machines/{name}", tag = TAG,
+    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    responses((status = 204)))]
 async fn delete(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -10,6 +10,7 @@ use ncc_driver::review::verify::hashes::built_in;
 use ncc_engine::Engine;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use utoipa::ToSchema;
 
 use crate::compiler::{self, DONE, put_machine, refusal};
 use crate::http::Problem;
@@ -25,8 +26,9 @@ const PROGRAMS: u32 = 10_000;
 const NOT_THERE: &str = "NC0217";
 
 /// A request for a translation. Names and values are those of the command line's options.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schema(as = TranslationRequest)]
 pub(crate) struct Asked {
     /// The program.
     pub(crate) program: String,

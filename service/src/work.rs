@@ -24,6 +24,10 @@ pub(crate) struct Pool {
     threads: Arc<Semaphore>,
     places: Semaphore,
     limit: Duration,
+    /// Number of threads.
+    count: usize,
+    /// Pieces of work at most, with those that wait.
+    most: usize,
 }
 
 /// Asks the work to stop when it is dropped: with its request, when its time is over, or after its end without effect.
@@ -38,8 +42,16 @@ impl Drop for Waiting {
 impl Pool {
     /// So many threads; as many pieces of work for each of them wait at most.
     pub(crate) fn new(threads: usize, waiting: usize, limit: Duration) -> Pool {
-        let places = Semaphore::new(threads * (1 + waiting));
-        Pool { threads: Arc::new(Semaphore::new(threads)), places, limit }
+        let most = threads * (1 + waiting);
+        let places = Semaphore::new(most);
+        Pool { threads: Arc::new(Semaphore::new(threads)), places, limit, count: threads, most }
+    }
+
+    /// Pieces of work that run, and that wait for a thread.
+    pub(crate) fn load(&self) -> [usize; 2] {
+        let running = self.count - self.threads.available_permits();
+        let inside = self.most - self.places.available_permits();
+        [running, inside.saturating_sub(running)]
     }
 
     /// Time limit of a piece of work.

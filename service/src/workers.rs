@@ -31,7 +31,7 @@ enum Left {
 pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
     let ncc = Caller::of(Who::default());
     let Ok(name) = crate::api::new_id() else {
-        crate::log::fault("a worker has no name: the system gives no random bytes");
+        crate::observe::fault("a worker has no name: the system gives no random bytes");
         return;
     };
     while !*stop.borrow() {
@@ -44,7 +44,7 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
                 continue;
             }
             Err(problem) => {
-                crate::log::fault(&format!("a worker finds no task: {}", problem.detail()));
+                crate::observe::fault(&format!("a worker finds no task: {}", problem.detail()));
                 let _ = tokio::time::timeout(GLANCE * 20, stop.changed()).await;
                 continue;
             }
@@ -66,7 +66,7 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
             })
             .await;
         if let Err(problem) = ended {
-            crate::log::fault(&format!("a task was not ended: {}", problem.detail()));
+            crate::observe::fault(&format!("a task was not ended: {}", problem.detail()));
         }
     }
 }

@@ -4,13 +4,14 @@ use axum::http::HeaderMap;
 use axum::http::header::{ETAG, LOCATION};
 use axum::http::{HeaderName, StatusCode};
 use axum::response::{IntoResponse, Response};
-use serde_json::{Value, json};
+use serde::Serialize;
+use utoipa::ToSchema;
 
 use crate::http::body;
 use crate::http::conditions::{etag, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
-use crate::store::{Details, Revision, Said};
+use crate::store::{Change, Details, Revision, Said};
 
 /// Bytes of a message and of an author's name at most.
 const LONGEST: usize = 2000;
@@ -21,24 +22,55 @@ const TAGS: usize = 100;
 /// Folders in each other at most.
 const DEEPEST: usize = 32;
 
+/// A program in a revision.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Program {
+    /// Name in addresses; it never changes.
+    id: String,
+    /// Folder, with `/` between names; empty at the top.
+    folder: String,
+    name: String,
+    /// Dialect, where it is known.
+    dialect: Option<String>,
+    /// Machine, where it is known.
+    machine: Option<String>,
+    tags: Vec<String>,
+    /// Number of the revision, from 1.
+    revision: i64,
+    /// The kind of change of this revision.
+    change: Change,
+    /// Digest of the text.
+    sha256: String,
+    /// Length of the text.
+    bytes: u64,
+    /// Author of this revision.
+    author: String,
+    /// The author's message; may be empty.
+    message: String,
+    /// Time of this revision, UTC.
+    #[schema(format = DateTime)]
+    made: String,
+}
+
 /// The document of a program.
-pub(super) fn document(of: &Revision) -> Value {
+pub(super) fn document(of: &Revision) -> Program {
     let stated = |name: &str| Some(name.to_owned()).filter(|name| !name.is_empty());
-    json!({
-        "id": of.program,
-        "folder": of.details.folder,
-        "name": of.details.name,
-        "dialect": stated(&of.details.dialect),
-        "machine": stated(&of.details.machine),
-        "tags": of.details.tags,
-        "revision": of.number,
-        "change": of.change,
-        "sha256": of.content.sha256,
-        "bytes": of.content.bytes,
-        "author": of.said.author,
-        "message": of.said.message,
-        "made": http::moment(of.made),
-    })
+    let (details, said) = (of.details.clone(), of.said.clone());
+    Program {
+        id: of.program.clone(),
+        dialect: stated(&details.dialect),
+        machine: stated(&details.machine),
+        folder: details.folder,
+        name: details.name,
+        tags: details.tags,
+        revision: of.number,
+        change: of.change,
+        sha256: of.content.sha256.clone(),
+        bytes: of.content.bytes,
+        author: said.author,
+        message: said.message,
+        made: http::moment(of.made),
+    }
 }
 
 /// The tag of a program in a revision.

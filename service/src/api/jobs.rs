@@ -9,6 +9,7 @@
 //! DELETE /api/v1/jobs/ID           cancels it
 //! ```
 
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
@@ -21,8 +22,9 @@ use axum::http::{HeaderMap, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
-use serde::Deserialize;
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use utoipa::ToSchema;
 
 use super::document::folder;
 use super::programs::new_id;
@@ -40,26 +42,89 @@ const PROGRAMS: u32 = 100_000;
 /// Interval of the events of a job.
 const GLANCE: Duration = Duration::from_millis(200);
 
-/// The programs of a job: a folder with its subfolders, a tag, a list, or a union of these.
-#[derive(Debug, Default, Deserialize)]
+/// Group of the addresses in the description.
+const TAG: &str = "jobs";
+
+/// The programs of a job: a folder with its subfolders, a tag, a list, or a union of these. Its other fields are those of a
+/// translation's request, but for `program` and `revision`.
+#[derive(Debug, Default, Deserialize, ToSchema)]
+#[schema(as = JobRequest)]
 struct Which {
+    /// A folder, with those below it; empty is all.
     under: Option<String>,
     tag: Option<String>,
+    /// Names of programs.
     #[serde(default)]
     programs: Vec<String>,
 }
 
-fn told(job: &Job) -> Value {
+/// A job.
+#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
+#[schema(as = Job)]
+struct JobDocument {
+    /// Name in addresses.
+    id: String,
+    /// The request for each program, without its empty fields.
+    #[schema(value_type = Object)]
+    asked: Value,
+    author: String,
+    /// Its begin, UTC.
+    #[schema(format = DateTime)]
+    made: String,
+    /// Its end, UTC.
+    #[schema(format = DateTime)]
+    ended: Option<String>,
+    cancelled: bool,
+    /// Number of tasks by state: `waiting`, `running`, `done`, `refused`, `cancelled`.
+    tasks: BTreeMap<String, i64>,
+}
+
+/// A page of jobs.
+#[derive(Debug, Serialize, ToSchema)]
+struct Jobs {
+    jobs: Vec<JobDocument>,
+    /// Value of `before` for the next page.
+    next: Option<String>,
+}
+
+/// A program of a job.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Task)]
+struct TaskDocument {
+    /// Counted from 1.
+    number: i64,
+    program: String,
+    folder: String,
+    name: String,
+    revision: i64,
+    /// `waiting`, `running`, `done`, `refused`, `cancelled`.
+    state: String,
+    /// The translation that was made.
+    translation: Option<String>,
+    /// Reason of a refusal: a problem document.
+    #[schema(value_type = Option<Object>)]
+    problem: Option<Value>,
+}
+
+/// A page of the programs of a job.
+#[derive(Debug, Serialize, ToSchema)]
+struct Results {
+    results: Vec<TaskDocument>,
+    /// Value of `after` for the next page.
+    next: Option<i64>,
+}
+
+fn told(job: &Job) -> JobDocument {
     let asked: Value = serde_json::from_str(&job.asked).unwrap_or_default();
-    json!({
-        "id": job.id,
-        "asked": super::translations::short(&asked),
-        "author": job.author,
-        "made": http::moment(job.made),
-        "ended": job.ended.map(http::moment),
-        "cancelled": job.is_cancelled,
-        "tasks": job.counts,
-    })
+    JobDocument {
+        id: job.id.clone(),
+        asked: super::translations::short(&asked),
+        author: job.author.clone(),
+        made: http::moment(job.made),
+        ended: job.ended.map(http::moment),
+        cancelled: job.is_cancelled,
+        tasks: job.counts.clone(),
+    }
 }
 
 /// Splits a request into its programs and the request for each program.
@@ -85,7 +150,10 @@ fn taken_apart(mut object: Map<String, Value>) -> Result<(Which, Asked), Problem
     Ok((which, serde_json::from_value(object.into()).map_err(form)?))
 }
 
-/// Begins a job.
+/// Begins a job: programs are translated one after the other.
+#[utoipa::path(post, path = "/api/v1/jobs", tag = TAG,
+    request_body = Which,
+    responses((status = 202, body = JobDocument, headers(("Location" = String)))))]
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -117,7 +185,13 @@ pub(super) async fn create(
     Ok((StatusCode::ACCEPTED, [(LOCATION, place)], http::json(&told(&job))).into_response())
 }
 
-/// Lists jobs.
+/// Lists jobs, the newest first.
+#[utoipa::path(get, path = "/api/v1/jobs", tag = TAG,
+    params(
+        ("before" = Option<String>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Jobs)))]
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -129,11 +203,13 @@ pub(super) async fn list(
     query.end("before, limit")?;
     let jobs = shared.store(&caller, move |store| Ok(store.jobs(before.as_deref(), most)?)).await?;
     let next = jobs.last().filter(|_| jobs.len() == most as usize).map(|last| last.id.clone());
-    let jobs: Vec<Value> = jobs.iter().map(told).collect();
-    Ok(http::json(&json!({ "jobs": jobs, "next": next })))
+    Ok(http::json(&Jobs { jobs: jobs.iter().map(told).collect(), next }))
 }
 
-/// Tells how far a job is.
+/// Gives the progress of a job.
+#[utoipa::path(get, path = "/api/v1/jobs/{id}", tag = TAG,
+    params(("id" = String, Path)),
+    responses((status = 200, body = JobDocument)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -145,7 +221,10 @@ pub(super) async fn read(
     Ok(http::json(&told(&job)))
 }
 
-/// Cancels a job.
+/// Cancels a job: running tasks are stopped, and no further one begins.
+#[utoipa::path(delete, path = "/api/v1/jobs/{id}", tag = TAG,
+    params(("id" = String, Path)),
+    responses((status = 200, body = JobDocument)))]
 pub(super) async fn cancel(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -163,7 +242,14 @@ pub(super) async fn cancel(
     Ok(http::json(&told(&job)))
 }
 
-/// Lists what became of each program.
+/// Lists the programs of a job with their results.
+#[utoipa::path(get, path = "/api/v1/jobs/{id}/results", tag = TAG,
+    params(
+        ("id" = String, Path),
+        ("after" = Option<i64>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Results)))]
 pub(super) async fn results(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -184,19 +270,18 @@ pub(super) async fn results(
     let task = |of: &TaskResult| {
         let [folder, name] = &of.place;
         let result: Value = serde_json::from_str(&of.result).unwrap_or_default();
-        json!({
-            "number": of.number,
-            "program": of.program,
-            "folder": folder,
-            "name": name,
-            "revision": of.revision,
-            "state": of.state,
-            "translation": result.get("translation"),
-            "problem": result.get("problem"),
-        })
+        TaskDocument {
+            number: of.number,
+            program: of.program.clone(),
+            folder: folder.clone(),
+            name: name.clone(),
+            revision: of.revision,
+            state: of.state.clone(),
+            translation: result.get("translation").and_then(Value::as_str).map(str::to_owned),
+            problem: result.get("problem").cloned(),
+        }
     };
-    let results: Vec<Value> = all.iter().map(task).collect();
-    Ok(http::json(&json!({ "results": results, "next": next })))
+    Ok(http::json(&Results { results: all.iter().map(task).collect(), next }))
 }
 
 /// State of a reader of events.
@@ -204,11 +289,14 @@ struct Watching {
     shared: Arc<Shared>,
     caller: Caller,
     id: String,
-    told: Option<Value>,
+    told: Option<JobDocument>,
     over: bool,
 }
 
-/// Tells how far a job is, as it goes on.
+/// Gives the progress of a job as it goes on: server-sent events `progress`, and `end` at last.
+#[utoipa::path(get, path = "/api/v1/jobs/{id}/events", tag = TAG,
+    params(("id" = String, Path)),
+    responses((status = 200, body = String, content_type = "text/event-stream")))]
 pub(super) async fn events(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -230,7 +318,7 @@ pub(super) async fn events(
             watching.over = job.ended.is_some();
             if watching.told.as_ref() != Some(&now) {
                 let name = if watching.over { "end" } else { "progress" };
-                let event = Event::default().event(name).data(now.to_string());
+                let event = Event::default().event(name).json_data(&now).ok()?;
                 watching.told = Some(now);
                 return Some((Ok::<_, Infallible>(event), watching));
             }

@@ -27,33 +27,33 @@ mod translations;
 
 use std::sync::Arc;
 
-use axum::Router;
 use axum::extract::DefaultBodyLimit;
-use axum::routing::{get, post};
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
 
 use crate::Shared;
 
 pub(crate) use self::programs::new_id;
 
 /// Addresses of programs, translations and jobs.
-pub(crate) fn routes() -> Router<Arc<Shared>> {
-    Router::new()
-        .route("/api/v1/programs", get(programs::list).post(programs::create))
-        .route("/api/v1/programs/{id}", get(programs::read).patch(programs::change).delete(programs::delete))
-        .route("/api/v1/programs/{id}/text", get(texts::read).put(texts::change))
-        .route("/api/v1/programs/{id}/revisions", get(revisions::list))
-        .route("/api/v1/programs/{id}/revisions/{number}", get(revisions::read))
-        .route("/api/v1/programs/{id}/revisions/{number}/text", get(texts::read_revision))
-        .route("/api/v1/programs/{id}/revisions/{number}/restore", post(revisions::restore))
-        .route("/api/v1/programs/{id}/outputs/{what}", get(outputs::read))
-        .route("/api/v1/translations", get(translations::list).post(translations::create))
-        .route("/api/v1/translations/{id}", get(translations::read))
-        .route("/api/v1/translations/{id}/states", get(states::list).post(states::step))
-        .route("/api/v1/translations/{id}/{what}", get(translations::outcome))
-        .route("/api/v1/jobs", get(jobs::list).post(jobs::create))
-        .route("/api/v1/jobs/{id}", get(jobs::read).delete(jobs::cancel))
-        .route("/api/v1/jobs/{id}/results", get(jobs::results))
-        .route("/api/v1/jobs/{id}/events", get(jobs::events))
+pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
+    OpenApiRouter::new()
+        .routes(routes!(programs::list, programs::create))
+        .routes(routes!(programs::read, programs::change, programs::delete))
+        .routes(routes!(texts::read, texts::change))
+        .routes(routes!(revisions::list))
+        .routes(routes!(revisions::read))
+        .routes(routes!(texts::read_revision))
+        .routes(routes!(revisions::restore))
+        .routes(routes!(outputs::read))
+        .routes(routes!(translations::list, translations::create))
+        .routes(routes!(translations::read))
+        .routes(routes!(states::list, states::step))
+        .routes(routes!(translations::outcome))
+        .routes(routes!(jobs::list, jobs::create))
+        .routes(routes!(jobs::read, jobs::cancel))
+        .routes(routes!(jobs::results))
+        .routes(routes!(jobs::events))
         // Texts come in pieces, and are counted as they come.
         .layer(DefaultBodyLimit::disable())
 }

@@ -21,6 +21,7 @@ use axum::response::{IntoResponse, Response};
 use ncc_driver::time::{csv, payload};
 use ncc_engine::Engine;
 use serde_json::{Value, json};
+use utoipa::ToSchema;
 
 use crate::Shared;
 use crate::access::Caller;
@@ -32,7 +33,8 @@ use crate::store::{Revision, Store, digest};
 use crate::translating::{profile, run_with_called};
 
 /// An output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ToSchema)]
+#[schema(rename_all = "lowercase")]
 enum Output {
     Summary,
     Tools,
@@ -178,7 +180,29 @@ fn make(store: &Store, found: &Found, asked: &Asked, output: Output, most: u64) 
     Ok(rows)
 }
 
-/// Gives an output.
+/// Executes a program, and gives an output of that.
+///
+/// `summary`, `payload` and `check` are JSON, `tools` and `times` are CSV. `model`, `start` and `tool_change_on` are not for
+/// `check`.
+#[utoipa::path(get, path = "/api/v1/programs/{id}/outputs/{what}", tag = "programs",
+    params(
+        ("id" = String, Path),
+        ("what" = Output, Path),
+        ("revision" = Option<i64>, Query, minimum = 1, description = "A revision; the latest without it"),
+        ("dialect" = Option<String>, Query, description = "Its dialect; that kept with it without this"),
+        ("machine" = Option<String>, Query, description = "The machine; that kept with it without this"),
+        ("option" = Option<Vec<String>>, Query, description = "Settings of the control: `NAME=VALUE`"),
+        ("assume_milling" = Option<bool>, Query, description = "It is for a mill, whatever it looks like"),
+        ("model" = Option<String>, Query, description = "The model of times: `constant`, `trapezoid`, …"),
+        ("start" = Option<String>, Query, description = "Position before the first block: `X-9,Y15.588,Z3`, mm"),
+        ("tool_change_on" = Option<String>, Query, description = "The function with the time of a tool change: `select` or `change`"),
+        ("If-None-Match" = Option<String>, Header),
+    ),
+    responses(
+        (status = 200, headers(("ETag" = String)),
+            content((Value = "application/json"), (String = "text/csv; charset=utf-8; header=present"))),
+        (status = 304),
+    ))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

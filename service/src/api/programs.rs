@@ -7,10 +7,12 @@ use axum::extract::rejection::BytesRejection;
 use axum::extract::{Path, RawQuery, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use serde::{Deserialize, Deserializer};
-use serde_json::{Value, json};
+use serde::{Deserialize, Deserializer, Serialize};
+use utoipa::ToSchema;
 
-use super::document::{changed, details, dialect, document, folder, machine, message_fits, said, tags, told};
+use super::document::{
+    Program, changed, details, dialect, document, folder, machine, message_fits, said, tags, told,
+};
 use super::texts::receive;
 use crate::Shared;
 use crate::access::Caller;
@@ -20,6 +22,9 @@ use crate::http::query::Query;
 use crate::http::{self, Problem};
 use crate::rights::Act;
 use crate::store::{Details, Once, Said, Wanted, digest};
+
+/// Group of the addresses in the description.
+const TAG: &str = "programs";
 
 /// The header of a request that may be sent again.
 const KEY: &str = "idempotency-key";
@@ -36,6 +41,22 @@ fn once(headers: &HeaderMap, asked: &str) -> Result<Option<Once>, Problem> {
 }
 
 /// Keeps a new program.
+///
+/// The body is its text, of up to 256 MB.
+#[utoipa::path(post, path = "/api/v1/programs", tag = TAG,
+    params(
+        ("name" = String, Query, min_length = 1, max_length = 255, description = "File name"),
+        ("folder" = Option<String>, Query, description = "Folder, with `/` between names; the top without it"),
+        ("dialect" = Option<String>, Query, description = "Its dialect, one of `ncc dialects`"),
+        ("machine" = Option<String>, Query, description = "The machine that it was written for"),
+        ("tag" = Option<Vec<String>>, Query, description = "Tags"),
+        ("message" = Option<String>, Query, max_length = 2000, description = "A message for the revision"),
+        ("Idempotency-Key" = Option<String>, Header, min_length = 1, max_length = 255,
+            description = "A key of the writer: a request that is sent again with it is done once"),
+    ),
+    request_body(content((String = "text/plain"), (Vec<u8> = "application/octet-stream")),
+        description = "The text of the program, as it is on the machine"),
+    responses((status = 201, body = Program, headers(("Location" = String), ("ETag" = String)))))]
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -73,7 +94,28 @@ pub(crate) fn new_id() -> Result<String, Problem> {
     Ok(bytes.iter().map(|byte| char::from(SIGNS[usize::from(byte % 32)])).collect())
 }
 
-/// Lists programs.
+/// A page of programs.
+#[derive(Debug, Serialize, ToSchema)]
+struct Programs {
+    programs: Vec<Program>,
+    /// Value of `after` for the next page.
+    next: Option<String>,
+}
+
+/// Lists programs in the order of their folders and names.
+#[utoipa::path(get, path = "/api/v1/programs", tag = TAG,
+    params(
+        ("folder" = Option<String>, Query, description = "The folder; empty is the top"),
+        ("under" = Option<String>, Query, description = "A folder and those below it"),
+        ("name" = Option<String>, Query, description = "A part of the name, in any case"),
+        ("tag" = Option<String>, Query, description = "A tag"),
+        ("dialect" = Option<String>, Query, description = "The dialect that is kept with it"),
+        ("machine" = Option<String>, Query, description = "The machine that is kept with it"),
+        ("deleted" = Option<bool>, Query, description = "The deleted ones"),
+        ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Programs)))]
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -96,11 +138,13 @@ pub(super) async fn list(
     let most = wanted.most as usize;
     let listed = shared.store(&caller, move |store| Ok(store.programs(&wanted)?)).await?;
     let next = listed.last().filter(|_| listed.len() == most).map(|last| last.program.clone());
-    let programs: Vec<Value> = listed.iter().map(document).collect();
-    Ok(http::json(&json!({ "programs": programs, "next": next })))
+    Ok(http::json(&Programs { programs: listed.iter().map(document).collect(), next }))
 }
 
-/// Tells of a program.
+/// Gives what is known of a program.
+#[utoipa::path(get, path = "/api/v1/programs/{id}", tag = TAG,
+    params(("id" = String, Path), ("If-None-Match" = Option<String>, Header)),
+    responses((status = 200, body = Program, headers(("ETag" = String))), (status = 304)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -114,18 +158,26 @@ pub(super) async fn read(
 }
 
 /// Changes of the details (RFC 7396): a field that is left out stays, `null` clears a field.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, ToSchema)]
 #[serde(default, deny_unknown_fields)]
 struct Patch {
+    /// Folder, with `/` between names.
     #[serde(deserialize_with = "stated")]
+    #[schema(value_type = Option<String>)]
     folder: Option<Option<String>>,
     name: Option<String>,
+    /// One of `ncc dialects`.
     #[serde(deserialize_with = "stated")]
+    #[schema(value_type = Option<String>)]
     dialect: Option<Option<String>>,
     #[serde(deserialize_with = "stated")]
+    #[schema(value_type = Option<String>)]
     machine: Option<Option<String>>,
     #[serde(deserialize_with = "stated")]
+    #[schema(value_type = Option<Vec<String>>)]
     tags: Option<Option<Vec<String>>>,
+    /// A message for the revision.
+    #[schema(max_length = 2000)]
     message: String,
 }
 
@@ -164,7 +216,11 @@ impl Patch {
     }
 }
 
-/// Changes what is said of a program.
+/// Changes folder, name, tags, dialect or machine of a program.
+#[utoipa::path(patch, path = "/api/v1/programs/{id}", tag = TAG,
+    params(("id" = String, Path), ("If-Match" = Option<String>, Header)),
+    request_body(content((Patch = "application/merge-patch+json"), (Patch = "application/json"))),
+    responses((status = 200, body = Program, headers(("ETag" = String)))))]
 pub(super) async fn change(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -190,7 +246,14 @@ pub(super) async fn change(
     Ok(changed(&made, None))
 }
 
-/// Deletes a program.
+/// Deletes a program; its revisions stay.
+#[utoipa::path(delete, path = "/api/v1/programs/{id}", tag = TAG,
+    params(
+        ("id" = String, Path),
+        ("message" = Option<String>, Query, max_length = 2000, description = "A message for the revision"),
+        ("If-Match" = Option<String>, Header),
+    ),
+    responses((status = 200, body = Program, headers(("ETag" = String)))))]
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

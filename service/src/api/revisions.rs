@@ -5,9 +5,10 @@ use std::sync::Arc;
 use axum::extract::{Path, RawQuery, State};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use serde_json::{Value, json};
+use serde::Serialize;
+use utoipa::ToSchema;
 
-use super::document::{changed, document, number, said, told};
+use super::document::{Program, changed, document, number, said, told};
 use crate::Shared;
 use crate::access::Caller;
 use crate::http::body::LISTED;
@@ -15,7 +16,25 @@ use crate::http::conditions::expected;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
 
-/// Lists revisions, the newest first.
+/// Group of the addresses in the description.
+const TAG: &str = "programs";
+
+/// A page of revisions.
+#[derive(Debug, Serialize, ToSchema)]
+struct Revisions {
+    revisions: Vec<Program>,
+    /// Value of `before` for the next page.
+    next: Option<i64>,
+}
+
+/// Lists the revisions of a program, the newest first.
+#[utoipa::path(get, path = "/api/v1/programs/{id}/revisions", tag = TAG,
+    params(
+        ("id" = String, Path),
+        ("before" = Option<i64>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Revisions)))]
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -29,11 +48,13 @@ pub(super) async fn list(
     let listed = shared.store(&caller, move |store| Ok(store.revisions(&id, before, most)?)).await?;
     let next = listed.last().filter(|last| last.number > 1).map(|last| last.number);
     let next = next.filter(|_| listed.len() == most as usize);
-    let revisions: Vec<Value> = listed.iter().map(document).collect();
-    Ok(http::json(&json!({ "revisions": revisions, "next": next })))
+    Ok(http::json(&Revisions { revisions: listed.iter().map(document).collect(), next }))
 }
 
-/// Tells what was known of a program.
+/// Gives what was known of a program in a revision.
+#[utoipa::path(get, path = "/api/v1/programs/{id}/revisions/{number}", tag = TAG,
+    params(("id" = String, Path), ("number" = i64, Path, minimum = 1), ("If-None-Match" = Option<String>, Header)),
+    responses((status = 200, body = Program, headers(("ETag" = String))), (status = 304)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -47,7 +68,15 @@ pub(super) async fn read(
     Ok(told(&found, &headers))
 }
 
-/// Makes a program again what it was.
+/// Makes a new revision that is as an earlier one; a deleted program is there again.
+#[utoipa::path(post, path = "/api/v1/programs/{id}/revisions/{number}/restore", tag = TAG,
+    params(
+        ("id" = String, Path),
+        ("number" = i64, Path, minimum = 1),
+        ("message" = Option<String>, Query, max_length = 2000, description = "A message for the revision"),
+        ("If-Match" = Option<String>, Header),
+    ),
+    responses((status = 201, body = Program, headers(("Location" = String), ("ETag" = String)))))]
 pub(super) async fn restore(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -15,11 +15,12 @@ use axum::extract::rejection::BytesRejection;
 use axum::extract::{Path, RawQuery, State as Here};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use utoipa::ToSchema;
 
 use super::document::message_fits;
-use super::translations::document;
+use super::translations::{TranslationDocument, document};
 use crate::Shared;
 use crate::access::Caller;
 use crate::http::body;
@@ -32,25 +33,52 @@ use crate::translating::{certificate, stale};
 const SAME: [&str; 2] = ["equal", "equal-within-tolerance"];
 
 /// The state that is asked for.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(as = NextState)]
 struct Asked {
     state: State,
+    /// A message for the history.
     #[serde(default)]
+    #[schema(max_length = 2000)]
     message: String,
 }
 
-fn told(step: &Step) -> Value {
-    json!({
-        "number": step.number,
-        "state": step.state,
-        "author": step.said.author,
-        "message": step.said.message,
-        "made": http::moment(step.made),
-    })
+/// A change of the state.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = StateChange)]
+struct StepDocument {
+    /// Counted from 1.
+    number: i64,
+    state: State,
+    author: String,
+    message: String,
+    /// Its time, UTC.
+    #[schema(format = DateTime)]
+    made: String,
 }
 
-/// Lists what a translation has gone through.
+/// The history of a translation's states.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = StateChanges)]
+struct Steps {
+    states: Vec<StepDocument>,
+}
+
+fn told(step: &Step) -> StepDocument {
+    StepDocument {
+        number: step.number,
+        state: step.state,
+        author: step.said.author.clone(),
+        message: step.said.message.clone(),
+        made: http::moment(step.made),
+    }
+}
+
+/// Lists the states that a translation has gone through.
+#[utoipa::path(get, path = "/api/v1/translations/{id}/states", tag = "translations",
+    params(("id" = String, Path)),
+    responses((status = 200, body = Steps)))]
 pub(super) async fn list(
     Here(shared): Here<Arc<Shared>>,
     caller: Caller,
@@ -64,11 +92,16 @@ pub(super) async fn list(
             Ok(store.steps(&id)?)
         })
         .await?;
-    let steps: Vec<Value> = steps.iter().map(told).collect();
-    Ok(http::json(&json!({ "states": steps })))
+    Ok(http::json(&Steps { states: steps.iter().map(told).collect() }))
 }
 
 /// Puts a translation into another state.
+///
+/// It is released only while it is not stale, and with a certificate that both programs make the same cut.
+#[utoipa::path(post, path = "/api/v1/translations/{id}/states", tag = "translations",
+    params(("id" = String, Path)),
+    request_body = Asked,
+    responses((status = 200, body = TranslationDocument)))]
 pub(super) async fn step(
     Here(shared): Here<Arc<Shared>>,
     caller: Caller,

@@ -9,7 +9,7 @@ use axum::http::header::{CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_TYPE, ETAG
 use axum::response::{IntoResponse, Response};
 use futures_util::{StreamExt, stream};
 
-use super::document::{changed, number, said, tag};
+use super::document::{Program, changed, number, said, tag};
 use crate::Shared;
 use crate::access::Caller;
 use crate::http::Problem;
@@ -17,6 +17,9 @@ use crate::http::body::{self, encoded};
 use crate::http::conditions::{expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::store::{Content, Receiving, Revision};
+
+/// Group of the addresses in the description.
+const TAG: &str = "programs";
 
 /// Receives a text.
 ///
@@ -71,7 +74,16 @@ async fn put_aside(shared: &Arc<Shared>, caller: &Caller, mut text: Receiving) -
     shared.store(caller, put).await
 }
 
-/// Keeps another text of a program.
+/// Keeps another text of a program: a new revision, unless it is the same text.
+#[utoipa::path(put, path = "/api/v1/programs/{id}/text", tag = TAG,
+    params(
+        ("id" = String, Path),
+        ("message" = Option<String>, Query, max_length = 2000, description = "A message for the revision"),
+        ("If-Match" = Option<String>, Header),
+    ),
+    request_body(content((String = "text/plain"), (Vec<u8> = "application/octet-stream")),
+        description = "The text of the program, as it is on the machine"),
+    responses((status = 200, body = Program, headers(("ETag" = String)))))]
 pub(super) async fn change(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -98,6 +110,9 @@ pub(super) async fn change(
 }
 
 /// Gives the text of a program.
+#[utoipa::path(get, path = "/api/v1/programs/{id}/text", tag = TAG,
+    params(("id" = String, Path), ("If-None-Match" = Option<String>, Header)),
+    responses((status = 200, body = String, content_type = "text/plain", headers(("ETag" = String))), (status = 304)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -111,6 +126,9 @@ pub(super) async fn read(
 }
 
 /// Gives the text of a program as it was.
+#[utoipa::path(get, path = "/api/v1/programs/{id}/revisions/{number}/text", tag = TAG,
+    params(("id" = String, Path), ("number" = i64, Path, minimum = 1), ("If-None-Match" = Option<String>, Header)),
+    responses((status = 200, body = String, content_type = "text/plain", headers(("ETag" = String))), (status = 304)))]
 pub(super) async fn read_revision(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -15,7 +15,9 @@ use axum::extract::{Path, RawQuery, State};
 use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
+use serde::Serialize;
 use serde_json::{Map, Value, json};
+use utoipa::ToSchema;
 
 use super::programs::new_id;
 use crate::Shared;
@@ -27,21 +29,57 @@ use crate::http::{self, Problem};
 use crate::store::{Outcome, State as Wanted, Store, Translation};
 use crate::translating::{Asked, certificate, stale, translate};
 
+/// Group of the addresses in the description.
+const TAG: &str = "translations";
+
+/// A translation.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Translation)]
+pub(super) struct TranslationDocument {
+    /// Name in addresses.
+    id: String,
+    /// The program.
+    program: String,
+    /// Its revision.
+    revision: i64,
+    /// The request, without its empty fields.
+    #[schema(value_type = Object)]
+    asked: Value,
+    /// Digests of its inputs.
+    #[schema(value_type = Object)]
+    inputs: Value,
+    state: Wanted,
+    /// Inputs that are others now: none while it holds.
+    #[schema(value_type = Vec<String>)]
+    stale: Vec<&'static str>,
+    author: String,
+    /// Its time, UTC.
+    #[schema(format = DateTime)]
+    made: String,
+}
+
+/// A page of translations.
+#[derive(Debug, Serialize, ToSchema)]
+struct Translations {
+    translations: Vec<TranslationDocument>,
+    /// Value of `after` for the next page.
+    next: Option<String>,
+}
+
 /// The document of a translation.
-pub(super) fn document(store: &Store, of: &Translation) -> Result<Value, Problem> {
+pub(super) fn document(store: &Store, of: &Translation) -> Result<TranslationDocument, Problem> {
     let asked: Value = serde_json::from_str(&of.asked).unwrap_or_default();
-    let inputs: Value = serde_json::from_str(&of.inputs).unwrap_or_default();
-    Ok(json!({
-        "id": of.id,
-        "program": of.program,
-        "revision": of.revision,
-        "asked": short(&asked),
-        "inputs": inputs,
-        "state": of.state,
-        "stale": stale(store, of)?,
-        "author": of.author,
-        "made": http::moment(of.made),
-    }))
+    Ok(TranslationDocument {
+        id: of.id.clone(),
+        program: of.program.clone(),
+        revision: of.revision,
+        asked: short(&asked),
+        inputs: serde_json::from_str(&of.inputs).unwrap_or_default(),
+        state: of.state,
+        stale: stale(store, of)?,
+        author: of.author.clone(),
+        made: http::moment(of.made),
+    })
 }
 
 /// A request without its empty fields.
@@ -53,7 +91,13 @@ pub(super) fn short(asked: &Value) -> Value {
     fields.map(|(name, value)| (name.clone(), value.clone())).collect::<Map<_, _>>().into()
 }
 
-/// Translates a program.
+/// Translates a program; the same request again gives the translation that is kept.
+#[utoipa::path(post, path = "/api/v1/translations", tag = TAG,
+    request_body = Asked,
+    responses(
+        (status = 201, body = TranslationDocument, headers(("Location" = String))),
+        (status = 200, body = TranslationDocument, description = "It was kept already", headers(("Location" = String))),
+    ))]
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -75,6 +119,14 @@ pub(super) async fn create(
 }
 
 /// Lists translations.
+#[utoipa::path(get, path = "/api/v1/translations", tag = TAG,
+    params(
+        ("program" = Option<String>, Query, description = "Those of a program"),
+        ("state" = Option<Wanted>, Query, description = "Those in a state"),
+        ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Translations)))]
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -94,10 +146,14 @@ pub(super) async fn list(
             Ok((all, next))
         })
         .await?;
-    Ok(http::json(&json!({ "translations": all, "next": next })))
+    Ok(http::json(&Translations { translations: all, next }))
 }
 
-/// Tells of a translation. It has no tag: what is stale changes with others.
+/// Gives what is known of a translation.
+// It has no tag: what is stale changes with others.
+#[utoipa::path(get, path = "/api/v1/translations/{id}", tag = TAG,
+    params(("id" = String, Path)),
+    responses((status = 200, body = TranslationDocument)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -109,7 +165,16 @@ pub(super) async fn read(
     Ok(http::json(&found))
 }
 
-/// Gives what came out of a translation.
+/// Gives a result of a translation.
+///
+/// `output` is its text, `report` the diagnostics, `map` the source line of each line of the output, `certificate` the verdict
+/// of the comparison of both programs.
+#[utoipa::path(get, path = "/api/v1/translations/{id}/{what}", tag = TAG,
+    params(("id" = String, Path), ("what" = Outcome, Path), ("If-None-Match" = Option<String>, Header)),
+    responses(
+        (status = 200, headers(("ETag" = String)), content((String = "text/plain"), (Value = "application/json"))),
+        (status = 304),
+    ))]
 pub(super) async fn outcome(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

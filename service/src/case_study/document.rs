@@ -16,6 +16,7 @@ use ncc_engine::Engine;
 use ncc_machines::Profile;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use utoipa::ToSchema;
 
 use crate::compiler::{self, DONE, put_machine, refusal};
 use crate::http::Problem;
@@ -36,8 +37,9 @@ pub(crate) const CMF_REFUSED: &str = "cmf-refused";
 pub(crate) const WHOLE_MEDIA: &str = "application/vnd.ncc.document+json";
 
 /// A document with all its parts, as the services send it to each other.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(as = Document)]
 pub(crate) struct Whole {
     /// The short name of the machine; empty where there is none.
     pub(crate) machine: String,
@@ -130,6 +132,28 @@ pub(crate) struct Setting {
     pub(crate) assume_milling: bool,
 }
 
+/// A processed program, for its writer.
+#[derive(Debug, Serialize, ToSchema)]
+#[schema(as = Processed)]
+pub(crate) struct Account {
+    prog_name: String,
+    /// Short name of the machine; empty where there is none.
+    machine_name: String,
+    dialect: String,
+    /// Blocks of the payload after processing.
+    blocks: usize,
+    /// Time stamp at the end of the program, s.
+    seconds: f64,
+    /// Diagnostics of the program, each as a line of `ncc --format json`.
+    diagnostics: Value,
+    /// Settings of the control that ncc assumed.
+    assumed: Value,
+    /// The list of canonical functions is kept.
+    cmf: bool,
+    /// Diagnostics, where the list is refused.
+    cmf_refused: Option<Value>,
+}
+
 /// Results of a processed program.
 #[derive(Debug)]
 pub(crate) struct Made {
@@ -138,7 +162,7 @@ pub(crate) struct Made {
     /// The short name of its machine, and the name of its dialect.
     pub(crate) of: [String; 2],
     /// The answer to the writer.
-    pub(crate) account: Value,
+    pub(crate) account: Account,
 }
 
 /// Processes a program. Each payload has `most` bytes at most.
@@ -168,17 +192,17 @@ pub(crate) fn process(name: &str, program: &[u8], setting: &Setting, most: u64) 
             Some(found)
         }
     };
-    let account = json!({
-        "prog_name": name,
-        "machine_name": setting.machine.as_deref().unwrap_or_default(),
-        "dialect": document.dialect,
-        "blocks": document.blocks.len(),
-        "seconds": document.blocks.last().map_or(0.0, |block| block.timestamp),
-        "diagnostics": findings,
-        "assumed": assumed,
-        "cmf": refused.is_none(),
-        "cmf_refused": refused,
-    });
+    let account = Account {
+        prog_name: name.to_owned(),
+        machine_name: setting.machine.clone().unwrap_or_default(),
+        dialect: document.dialect.clone(),
+        blocks: document.blocks.len(),
+        seconds: document.blocks.last().map_or(0.0, |block| block.timestamp),
+        diagnostics: findings,
+        assumed,
+        cmf: refused.is_none(),
+        cmf_refused: refused,
+    };
     Ok(Made { parts, of: [setting.machine.clone().unwrap_or_default(), document.dialect], account })
 }
 

@@ -19,8 +19,8 @@ mod transpiler;
 
 use std::sync::Arc;
 
-use axum::Router;
-use axum::routing::{get, post};
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
 
 use crate::Shared;
 
@@ -28,22 +28,26 @@ pub(crate) use self::remote::Remote;
 pub(crate) use self::shelf::Shelf;
 
 /// Addresses of TRANSPILER.
-pub(crate) fn transpiler() -> Router<Arc<Shared>> {
-    Router::new().route("/transpiler", get(persistence::list)).route(
-        "/transpiler/{name}",
-        post(transpiler::create).get(transpiler::read).put(transpiler::update).delete(persistence::delete),
-    )
+pub(crate) fn transpiler() -> OpenApiRouter<Arc<Shared>> {
+    OpenApiRouter::new().routes(routes!(transpiler::list)).routes(routes!(
+        transpiler::create,
+        transpiler::read,
+        transpiler::update,
+        transpiler::delete
+    ))
 }
 
 /// Addresses of PERSISTENCE.
-pub(crate) fn persistence() -> Router<Arc<Shared>> {
-    Router::new().route("/persistence", get(persistence::list)).route(
-        "/persistence/{name}",
-        post(persistence::create).get(persistence::read).put(persistence::update).delete(persistence::delete),
-    )
+pub(crate) fn persistence() -> OpenApiRouter<Arc<Shared>> {
+    OpenApiRouter::new().routes(routes!(persistence::list)).routes(routes!(
+        persistence::create,
+        persistence::read,
+        persistence::update,
+        persistence::delete
+    ))
 }
 
 /// Addresses of OUTPUT.
-pub(crate) fn output() -> Router<Arc<Shared>> {
-    Router::new().route("/output/{name}", get(output::read))
+pub(crate) fn output() -> OpenApiRouter<Arc<Shared>> {
+    OpenApiRouter::new().routes(routes!(output::read))
 }

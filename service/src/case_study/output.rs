@@ -11,6 +11,7 @@ use axum::http::header::{CONTENT_TYPE, ETAG};
 use axum::response::{IntoResponse, Response};
 use ncc_driver::time::csv;
 use percent_encoding::percent_decode_str;
+use utoipa::ToSchema;
 
 use super::document::{self, AFTER, CMF, CMF_REFUSED};
 use super::shelf::Found;
@@ -22,7 +23,8 @@ use crate::http::conditions::{etag, is_known, not_modified};
 use crate::http::query::Query;
 
 /// A type of output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ToSchema)]
+#[schema(as = OutputType, rename_all = "lowercase")]
 enum Type {
     Csv,
     Cmf,
@@ -37,7 +39,18 @@ fn name_and_query(path: &str, query: Option<&str>) -> Result<(String, String), P
     Ok((name, [printed, query.unwrap_or_default()].join("&")))
 }
 
-/// Gives an output.
+/// Gives an output of a stored document: its rows of times (CSV), or its list of canonical functions.
+#[utoipa::path(get, path = "/output/{name}", tag = "case study",
+    params(
+        ("name" = String, Path),
+        ("type" = Option<Type>, Query, description = "`csv` without it"),
+        ("If-None-Match" = Option<String>, Header),
+    ),
+    responses(
+        (status = 200, headers(("ETag" = String)),
+            content((String = "text/csv; charset=utf-8; header=present"), (String = "text/plain; charset=utf-8"))),
+        (status = 304),
+    ))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

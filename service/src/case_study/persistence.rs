@@ -12,7 +12,8 @@ use axum::http::header::{CONTENT_TYPE, ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use ncc_driver::time::payload::{self, Fields};
-use serde_json::json;
+use serde::Serialize;
+use utoipa::ToSchema;
 
 use super::document::{self, AFTER, BEFORE, CMF, CMF_REFUSED, WHOLE_MEDIA, Whole};
 use super::shelf::{Found, whole};
@@ -22,10 +23,14 @@ use crate::http::body::{self, LISTED, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
-use crate::store::Parts;
+use crate::store::{Listed, Parts};
+
+/// Group of the addresses in the description.
+const TAG: &str = "case study";
 
 /// The form in which a payload is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ToSchema)]
+#[schema(rename_all = "lowercase")]
 pub(super) enum Form {
     /// As it was put in.
     Stored,
@@ -37,7 +42,21 @@ pub(super) enum Form {
     Whole,
 }
 
+/// A page of documents.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Documents {
+    documents: Vec<Listed>,
+    /// Value of `after` for the next page.
+    next: Option<String>,
+}
+
 /// Lists documents.
+#[utoipa::path(get, path = "/persistence", tag = TAG,
+    params(
+        ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Documents)))]
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -50,7 +69,7 @@ pub(super) async fn list(
     let listed = shared.keep(&caller, move |shelf| shelf.list(&after, most)).await?;
     // A full page has a next one, which may be empty.
     let next = listed.last().filter(|_| listed.len() == most as usize).map(|last| last.name.clone());
-    Ok(http::json(&json!({ "documents": listed, "next": next })))
+    Ok(http::json(&Documents { documents: listed, next }))
 }
 
 /// The document of a body.
@@ -66,6 +85,10 @@ fn sent(headers: &HeaderMap, name: &str, body: &[u8]) -> Result<(Parts, [String;
 }
 
 /// Stores a payload under a name that is free.
+#[utoipa::path(post, path = "/persistence/{name}", tag = TAG,
+    params(("name" = String, Path)),
+    request_body(content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))),
+    responses((status = 201, headers(("Location" = String), ("ETag" = String)))))]
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -87,6 +110,10 @@ pub(super) async fn create(
 }
 
 /// Stores a payload in the place of another one.
+#[utoipa::path(put, path = "/persistence/{name}", tag = TAG,
+    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    request_body(content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))),
+    responses((status = 204, headers(("ETag" = String)))))]
 pub(super) async fn update(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -108,6 +135,9 @@ pub(super) async fn update(
 }
 
 /// Deletes a document.
+#[utoipa::path(delete, path = "/persistence/{name}", tag = TAG,
+    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    responses((status = 204)))]
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -122,6 +152,14 @@ pub(super) async fn delete(
 }
 
 /// Gives a payload.
+#[utoipa::path(get, path = "/persistence/{name}", tag = TAG,
+    params(
+        ("name" = String, Path),
+        ("form" = Option<Form>, Query),
+        ("stage" = Option<String>, Query, description = "`before` or `after` processing"),
+        ("If-None-Match" = Option<String>, Header),
+    ),
+    responses((status = 200, headers(("ETag" = String)), content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))), (status = 304)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -12,8 +12,8 @@ use axum::http::header::{ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 
-use super::document::{Setting, process};
-use super::persistence::{Form, read_in};
+use super::document::{Account, Setting, Whole, process};
+use super::persistence::{self, Documents, Form, read_in};
 use super::shelf::Shelf;
 use crate::Shared;
 use crate::access::Caller;
@@ -21,6 +21,38 @@ use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+
+/// Group of the addresses in the description.
+const TAG: &str = "case study";
+
+/// Lists documents.
+#[utoipa::path(get, path = "/transpiler", tag = TAG,
+    params(
+        ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Documents)))]
+pub(super) async fn list(
+    shared: State<Arc<Shared>>,
+    caller: Caller,
+    query: RawQuery,
+) -> Result<Response, Problem> {
+    persistence::list(shared, caller, query).await
+}
+
+/// Deletes a document.
+#[utoipa::path(delete, path = "/transpiler/{name}", tag = TAG,
+    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    responses((status = 204)))]
+pub(super) async fn delete(
+    shared: State<Arc<Shared>>,
+    caller: Caller,
+    name: Name,
+    query: RawQuery,
+    headers: HeaderMap,
+) -> Result<StatusCode, Problem> {
+    persistence::delete(shared, caller, name, query, headers).await
+}
 
 /// Query names of the address of a program.
 const TAKES: &str =
@@ -75,6 +107,22 @@ fn program(headers: &HeaderMap, body: Result<Bytes, BytesRejection>, most: u64) 
 }
 
 /// Processes a program, and stores its document under a name that is free.
+#[utoipa::path(post, path = "/transpiler/{name}", tag = TAG,
+    params(
+        ("name" = String, Path),
+        ("dialect" = Option<String>, Query, description = "Its dialect; it is recognised without this"),
+        ("machine" = Option<String>, Query, description = "Its machine"),
+        ("option" = Option<Vec<String>>, Query, description = "Settings of the control: `NAME=VALUE`"),
+        ("start" = Option<String>, Query, description = "Position before the first block: `X-9,Y15.588,Z3`, mm"),
+        ("start_time" = Option<f64>, Query, description = "Time stamp before the first block, s"),
+        ("model" = Option<String>, Query, description = "The model of times"),
+        ("tool_change_on" = Option<String>, Query, description = "The function with the time of a tool change: `select` or `change`"),
+        ("units" = Option<String>, Query, description = "Units at power-on: `mm` or `inch`"),
+        ("assume_milling" = Option<bool>, Query, description = "It is for a mill, whatever it looks like"),
+    ),
+    request_body(content((String = "text/plain"), (Vec<u8> = "application/octet-stream")),
+        description = "The text of the program"),
+    responses((status = 201, body = Account, headers(("Location" = String), ("ETag" = String)))))]
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -100,6 +148,23 @@ pub(super) async fn create(
 
 /// Processes a program, and stores its document in the place of the one under its name. Dialect and machine are those of
 /// that one, unless the address names others.
+#[utoipa::path(put, path = "/transpiler/{name}", tag = TAG,
+    params(
+        ("name" = String, Path),
+        ("dialect" = Option<String>, Query, description = "Its dialect; that of the stored document without this"),
+        ("machine" = Option<String>, Query, description = "Its machine; that of the stored document without this"),
+        ("option" = Option<Vec<String>>, Query, description = "Settings of the control: `NAME=VALUE`"),
+        ("start" = Option<String>, Query, description = "Position before the first block: `X-9,Y15.588,Z3`, mm"),
+        ("start_time" = Option<f64>, Query, description = "Time stamp before the first block, s"),
+        ("model" = Option<String>, Query, description = "The model of times"),
+        ("tool_change_on" = Option<String>, Query, description = "The function with the time of a tool change: `select` or `change`"),
+        ("units" = Option<String>, Query, description = "Units at power-on: `mm` or `inch`"),
+        ("assume_milling" = Option<bool>, Query, description = "It is for a mill, whatever it looks like"),
+        ("If-Match" = Option<String>, Header),
+    ),
+    request_body(content((String = "text/plain"), (Vec<u8> = "application/octet-stream")),
+        description = "The text of the program"),
+    responses((status = 200, body = Account, headers(("ETag" = String)))))]
 pub(super) async fn update(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -130,6 +195,14 @@ pub(super) async fn update(
 }
 
 /// Gives the payload.
+#[utoipa::path(get, path = "/transpiler/{name}", tag = TAG,
+    params(
+        ("name" = String, Path),
+        ("form" = Option<Form>, Query),
+        ("stage" = Option<String>, Query, description = "`before` or `after` processing"),
+        ("If-None-Match" = Option<String>, Header),
+    ),
+    responses((status = 200, headers(("ETag" = String)), content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))), (status = 304)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -10,6 +10,9 @@ use axum::response::{IntoResponse, Response};
 use super::Problem;
 use crate::store::Condition;
 
+/// End of the tag of a compressed answer: other bytes, so another tag (RFC 9110, 8.8.3.3).
+pub(crate) const COMPRESSED: &str = "-gzip\"";
+
 /// The tag of what is stored, or of an output of it.
 pub(crate) fn etag(digest: &str, form: &str) -> String {
     if form.is_empty() { format!("\"{digest}\"") } else { format!("\"{digest}-{form}\"") }
@@ -49,7 +52,8 @@ pub(crate) fn expected(headers: &HeaderMap) -> Result<Condition, Problem> {
 /// Whether a reader has this already (`If-None-Match`).
 pub(crate) fn is_known(headers: &HeaderMap, etag: &str) -> bool {
     let tags = tags(headers, &IF_NONE_MATCH).unwrap_or_default();
-    tags.iter().any(|tag| tag == "*" || tag.strip_prefix("W/").unwrap_or(tag) == etag)
+    let bare = |tag: &str| tag.strip_prefix("W/").unwrap_or(tag).replace(COMPRESSED, "\"");
+    tags.iter().any(|tag| tag == "*" || bare(tag) == etag)
 }
 
 /// The answer to a reader who has this already.

@@ -16,7 +16,7 @@ use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 use tokio_io_timeout::TimeoutStream;
 
-use crate::{Limits, log};
+use crate::{Limits, observe};
 
 /// Connections at once at most; further ones wait. A process has 1024 open files at least.
 const CONNECTIONS: usize = 512;
@@ -52,7 +52,7 @@ pub(crate) async fn serve(
         let (stream, place) = match next {
             Ok(next) => next,
             Err(error) => {
-                log::fault(&format!("no connection: {error}"));
+                observe::fault(&format!("no connection: {error}"));
                 tokio::time::sleep(PAUSE).await;
                 continue;
             }

@@ -58,7 +58,8 @@ pub(crate) async fn pass(State(gate): State<Gate>, request: Request, next: Next)
         // A copy is used only after the server has been asked.
         ("cache-control", "no-cache"),
     ] {
-        headers.insert(name, HeaderValue::from_static(value));
+        // A page states the rights that it needs.
+        headers.entry(name).or_insert(HeaderValue::from_static(value));
     }
     answer
 }

@@ -2,9 +2,11 @@
 
 pub(crate) mod arrival;
 pub(crate) mod body;
+pub(crate) mod compression;
 pub(crate) mod conditions;
 pub(crate) mod connections;
 pub(crate) mod gate;
+pub(crate) mod openapi;
 pub(crate) mod problem;
 pub(crate) mod query;
 

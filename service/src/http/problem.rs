@@ -5,6 +5,7 @@ use axum::http::{HeaderValue, StatusCode};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde_json::Value;
+use utoipa::ToSchema;
 
 use crate::store::StoreError;
 use crate::work::NotDone;
@@ -16,8 +17,9 @@ pub(crate) const MEDIA: &str = "application/problem+json";
 #[derive(Clone, Debug)]
 pub(crate) struct Problem(Box<Body>);
 
-#[derive(Clone, Debug, Serialize)]
-struct Body {
+#[derive(Clone, Debug, Serialize, ToSchema)]
+#[schema(as = Problem)]
+pub(crate) struct Body {
     /// The name of its kind.
     #[serde(rename = "type")]
     kind: String,
@@ -257,7 +259,7 @@ impl From<StoreError> for Problem {
             StoreError::Full => Problem::of(FULL, "nothing was changed"),
             StoreError::Busy => Problem::busy("the database is taken by others"),
             StoreError::Database(words) => {
-                crate::log::fault(&words);
+                crate::observe::fault(&words);
                 Problem::fault()
             }
         }

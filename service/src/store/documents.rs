@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::session::{Row, Session, values};
 use super::{Store, StoreError, digest};
@@ -27,7 +28,8 @@ pub(crate) struct Document {
 }
 
 /// A document in a list.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[schema(as = DocumentEntry)]
 pub(crate) struct Listed {
     /// The name of its program.
     #[serde(rename = "prog_name")]

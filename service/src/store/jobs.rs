@@ -84,6 +84,15 @@ pub(crate) struct TaskResult {
 }
 
 impl Store {
+    /// Number of tasks by state, of all jobs.
+    pub(crate) fn tasks_by_state(&self) -> Result<Vec<(String, i64)>, StoreError> {
+        self.database.read(|from| {
+            from.read("SELECT state, COUNT(*) FROM task GROUP BY state", values![], |mut row| {
+                Ok((row.text(0)?, row.int(1)?))
+            })
+        })
+    }
+
     /// Keeps a job with a task for each program, in order.
     pub(crate) fn create_job(
         &self,

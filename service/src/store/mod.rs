@@ -29,7 +29,7 @@ pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::jobs::{End, Job, Task, TaskResult};
 pub(crate) use self::machines::Machine;
-pub(crate) use self::programs::{Details, Once, Revision, Said, Wanted};
+pub(crate) use self::programs::{Change, Details, Once, Revision, Said, Wanted};
 pub(crate) use self::states::{State, Step};
 pub(crate) use self::translations::{Outcome, Translation};
 

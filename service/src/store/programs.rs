@@ -4,6 +4,7 @@
 //! revision is never changed.
 
 use serde::Serialize;
+use utoipa::ToSchema;
 
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
@@ -11,7 +12,7 @@ use super::session::{Row, Session, values};
 use super::{Condition, Store, StoreError};
 
 /// The kind of change of a revision.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Change {
     /// It is the first one.

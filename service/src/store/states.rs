@@ -4,6 +4,7 @@
 //! is obsolete from then on.
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::documents::now;
 use super::programs::Said;
@@ -11,7 +12,7 @@ use super::session::{Row, Session, values};
 use super::{Store, StoreError};
 
 /// A state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum State {
     /// Nobody has looked at it.

@@ -1,5 +1,7 @@
 //! Translations of programs. What went in and what came out of one is never changed.
 
+use utoipa::ToSchema;
+
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
 use super::session::{Row, Session, values};
@@ -32,7 +34,8 @@ pub(crate) struct Translation {
 }
 
 /// A result of a translation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ToSchema)]
+#[schema(as = TranslationResult, rename_all = "lowercase")]
 pub(crate) enum Outcome {
     /// The text.
     Output,
