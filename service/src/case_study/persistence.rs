@@ -22,6 +22,7 @@ use crate::http::body::{self, LISTED, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 use crate::store::Parts;
 
 /// The form in which a payload is asked for.
@@ -75,6 +76,7 @@ pub(super) async fn create(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may(Act::Change, "")?;
     let body = body::whole(body, shared.largest)?;
     let place = format!("/persistence/{}", encoded(&name));
     let tag = shared
@@ -96,6 +98,7 @@ pub(super) async fn update(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may(Act::Change, "")?;
     let over = expected(&headers)?;
     let body = body::whole(body, shared.largest)?;
     let tag = shared

@@ -21,6 +21,7 @@ use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 
 /// Query names of the address of a program.
 const TAKES: &str =
@@ -83,6 +84,7 @@ pub(super) async fn create(
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
+    caller.may(Act::Change, "")?;
     let mut setting = stated(query.as_deref())?;
     let program = program(&headers, body, shared.largest)?;
     let place = format!("/transpiler/{}", encoded(&name));
@@ -108,6 +110,7 @@ pub(super) async fn update(
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
+    caller.may(Act::Change, "")?;
     let mut setting = stated(query.as_deref())?;
     let over = expected(&headers)?;
     let program = program(&headers, body, shared.largest)?;

@@ -7,6 +7,7 @@ pub(crate) mod connections;
 pub(crate) mod gate;
 pub(crate) mod problem;
 pub(crate) mod query;
+pub(crate) mod tls;
 
 use std::time::{Duration, UNIX_EPOCH};
 
