@@ -45,8 +45,16 @@ impl Users {
     /// # Errors
     /// The database cannot be used.
     pub fn open(place: &Place, author: &str) -> Result<Users, UsersError> {
+        Users::with_cost(place, author, Cost::default())
+    }
+
+    /// The same, with passwords of another cost.
+    ///
+    /// # Errors
+    /// As of [`Users::open`].
+    pub fn with_cost(place: &Place, author: &str, cost: Cost) -> Result<Users, UsersError> {
         let store = Store::open(place)?.of(Who::command(author).into());
-        Ok(Users { store, cost: Cost::default() })
+        Ok(Users { store, cost })
     }
 
     /// The name and the rights fit.

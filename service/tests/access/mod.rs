@@ -18,10 +18,13 @@ use crate::client::{Answer, Server};
 /// The password of all accounts here.
 pub(crate) const PASSWORD: &str = "correct horse";
 
+/// The least cost of a password.
+pub(crate) const CHEAP: Cost = Cost { memory: 8, rounds: 1, lanes: 1 };
+
 /// Limits with cheap passwords, and as many attempts as a test needs.
 pub(crate) fn limits() -> Limits {
     Limits {
-        password: Cost { memory: 8, rounds: 1, lanes: 1 },
+        password: CHEAP,
         attempts: Rate { burst: 1000, every: Duration::from_secs(1) },
         ..Limits::default()
     }
