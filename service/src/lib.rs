@@ -10,36 +10,43 @@
 //! state is in a process but the store's connections. Programs are read from requests alone: no file of the server is
 //! readable through a program's calls. Work of the compiler has limits of time, size and number (`work`).
 //!
-//! It answers this computer alone, without a login. Not here: the compiler (`ncc_engine`, `ncc_driver`), the command line.
+//! It answers this computer alone, without a login, until there is an account. Others need accounts ([`access`]). Not here: the compiler (`ncc_engine`, `ncc_driver`), the command line.
 
 mod access;
 mod api;
 mod case_study;
+mod chance;
 mod compiler;
 mod http;
 mod machines;
 mod observe;
 mod rights;
+mod settings;
 mod store;
 mod translating;
 mod work;
 mod workers;
 
 use std::io;
-use std::net::{SocketAddr, TcpListener};
+use std::net::TcpListener;
 use std::sync::Arc;
 use std::time::Duration;
 
 use axum::extract::DefaultBodyLimit;
 use axum::{Router, middleware};
 use tokio::sync::watch;
+use tokio_rustls::TlsAcceptor;
 
 use self::access::Caller;
+use self::access::guard::{self, Guard};
+pub use self::access::{Users, UsersError};
 use self::case_study::{Remote, Shelf};
 use self::http::arrival::{self, Arrivals};
-use self::http::{Problem, compression, connections, gate, openapi};
+use self::http::{Problem, compression, connections, gate, openapi, tls};
 use self::observe::Counters;
 pub use self::observe::{Form as LogForm, Level as LogLevel, log};
+pub use self::rights::{Role, Scope};
+pub use self::settings::{Cost, Listen, Rate};
 pub use self::store::Place;
 use self::store::Store;
 use self::work::Pool;
@@ -61,6 +68,16 @@ pub struct Limits {
     pub body: Duration,
     /// Time limit of a client that reads nothing of its answer.
     pub reader: Duration,
+    /// Cost of the digest of a password.
+    pub password: Cost,
+    /// Time after which a session that is not used ends.
+    pub session: Duration,
+    /// Attempts to log in, of an account and of an address. Each process counts them itself, as all rates.
+    pub attempts: Rate,
+    /// Requests of an account, and of an address without a login.
+    pub requests: Rate,
+    /// Pieces of work of the compiler for an account.
+    pub work_of_one: Rate,
 }
 
 impl Default for Limits {
@@ -73,6 +90,11 @@ impl Default for Limits {
             head: Duration::from_secs(30),
             body: Duration::from_secs(120),
             reader: Duration::from_secs(30),
+            password: Cost::default(),
+            session: Duration::from_secs(12 * 3600),
+            attempts: Rate { burst: 20, every: Duration::from_secs(15) },
+            requests: Rate { burst: 2000, every: Duration::from_millis(2) },
+            work_of_one: Rate { burst: 500, every: Duration::from_millis(20) },
         }
     }
 }
@@ -108,8 +130,12 @@ pub enum Part {
 /// Reason why a server cannot be opened.
 #[derive(Debug)]
 pub enum OpenError {
-    /// It would answer other computers, and there are no logins.
-    NotThisComputer,
+    /// It would answer other computers, and no account is there.
+    NoAccount,
+    /// It would answer other computers without TLS.
+    NoTls,
+    /// The certificate or the key cannot be used; the reason.
+    Tls(String),
     /// The address cannot be listened on.
     Address(io::Error),
     /// The database cannot be used; its reason.
@@ -127,6 +153,7 @@ struct Shared {
     largest: u64,
     /// Author of all changes: without a login, there is one user.
     author: String,
+    guard: Guard,
 }
 
 impl Shared {
@@ -141,7 +168,7 @@ impl Shared {
         caller: &Caller,
         work: impl FnOnce(&Shelf) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let shelf = self.shelf.of(caller.who());
+        let shelf = self.shelf.of(caller);
         tokio::task::spawn_blocking(move || work(&shelf)).await.unwrap_or_else(|_| Err(Problem::fault()))
     }
 
@@ -162,6 +189,7 @@ impl Shared {
         work: impl FnOnce(&Store) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
         let store = self.store_of(caller)?;
+        self.guard.takes_work(caller)?;
         let done = self.pool.run(move || work(&store)).await;
         done.unwrap_or_else(|not| Err(Problem::of_work(not, self.pool.limit())))
     }
@@ -183,7 +211,8 @@ impl Shared {
         caller: &Caller,
         work: impl FnOnce(&Shelf) -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let shelf = self.shelf.of(caller.who());
+        let shelf = self.shelf.of(caller);
+        self.guard.takes_work(caller)?;
         match self.pool.run(move || work(&shelf)).await {
             // A program that was interrupted with the process is not a wrong one.
             Ok(Err(_)) if ncc_exec::halt::is_asked() => Err(Problem::busy("the service ends")),
@@ -196,7 +225,8 @@ impl Shared {
 /// A server that is ready.
 pub struct Service {
     listener: TcpListener,
-    here: SocketAddr,
+    listen: Listen,
+    tls: Option<TlsAcceptor>,
     routes: Router<Arc<Shared>>,
     shared: Arc<Shared>,
     threads: usize,
@@ -206,11 +236,12 @@ pub struct Service {
 }
 
 impl Service {
-    /// Listens on an address of this computer; port 0 is any that is free. Changes are `author`'s.
+    /// Listens on an address; port 0 is any that is free. Without accounts, changes are `author`'s.
     ///
     /// # Errors
-    /// It is no address of this computer, it is taken, or the database cannot be used.
-    pub fn open(listen: SocketAddr, part: &Part, author: &str) -> Result<Service, OpenError> {
+    /// The address is taken, the database or the certificate cannot be used; or other computers may ask, and there are no
+    /// accounts, or there is no TLS.
+    pub fn open(listen: impl Into<Listen>, part: &Part, author: &str) -> Result<Service, OpenError> {
         Service::with_limits(listen, part, author, Limits::default())
     }
 
@@ -219,14 +250,12 @@ impl Service {
     /// # Errors
     /// As of [`Service::open`].
     pub fn with_limits(
-        listen: SocketAddr,
+        listen: impl Into<Listen>,
         part: &Part,
         author: &str,
         limits: Limits,
     ) -> Result<Service, OpenError> {
-        if !listen.ip().is_loopback() {
-            return Err(OpenError::NotThisComputer);
-        }
+        let mut listen = listen.into();
         let own = match part {
             Part::All { database } | Part::Persistence { database } => {
                 let store = Store::open(database).map_err(|error| OpenError::Database(error.to_string()))?;
@@ -234,24 +263,38 @@ impl Service {
             }
             Part::Transpiler { .. } | Part::Output { .. } => None,
         };
+        if listen.is_public() {
+            let has_accounts = own.as_ref().map_or(Ok(false), Store::has_accounts);
+            if !has_accounts.map_err(|error| OpenError::Database(error.to_string()))? {
+                return Err(OpenError::NoAccount);
+            }
+        }
+        if !listen.address.ip().is_loopback() && listen.tls.is_none() && !listen.behind_proxy {
+            return Err(OpenError::NoTls);
+        }
+        let tls = listen.tls.as_ref().map(tls::acceptor).transpose().map_err(OpenError::Tls)?;
         let (addresses, elsewhere) = match part {
             Part::All { .. } => (
                 case_study::transpiler()
                     .merge(case_study::persistence())
                     .merge(case_study::output())
                     .merge(machines::routes())
-                    .merge(api::routes()),
+                    .merge(api::routes())
+                    .merge(access::routes()),
                 None,
             ),
-            Part::Persistence { .. } => (case_study::persistence().merge(machines::routes()), None),
+            Part::Persistence { .. } => {
+                (case_study::persistence().merge(machines::routes()).merge(access::routes()), None)
+            }
             Part::Transpiler { persistence } => (case_study::transpiler(), Some(persistence)),
             Part::Output { persistence } => (case_study::output(), Some(persistence)),
         };
         let routes = openapi::described(addresses.merge(observe::routes()));
         let there = || Shelf::There(Arc::new(Remote::at(elsewhere.map_or("", String::as_str))));
         let shelf = own.clone().map_or_else(there, Shelf::Here);
-        let listener = TcpListener::bind(listen).map_err(OpenError::Address)?;
-        let here = listener.local_addr().map_err(OpenError::Address)?;
+        let listener = TcpListener::bind(listen.address).map_err(OpenError::Address)?;
+        listen.address = listener.local_addr().map_err(OpenError::Address)?;
+        let guard = Guard::new(&limits, tls.is_some() || listen.behind_proxy);
         let threads = std::thread::available_parallelism().map_or(2, usize::from);
         let pool = Pool::new(threads, limits.waiting, limits.work);
         let shared = Arc::new(Shared {
@@ -261,14 +304,15 @@ impl Service {
             counters: Arc::new(Counters::new()),
             largest: limits.largest,
             author: author.to_owned(),
+            guard,
         });
         let workers = if matches!(part, Part::All { .. }) { threads } else { 0 };
-        Ok(Service { listener, here, routes, shared, threads, workers, limits })
+        Ok(Service { listener, listen, tls, routes, shared, threads, workers, limits })
     }
 
     /// Address of the server.
     pub fn address(&self) -> String {
-        format!("http://{}", self.here)
+        format!("{}://{}", if self.tls.is_some() { "https" } else { "http" }, self.listen.address)
     }
 
     /// Serves until the process is asked to stop (`ncc_exec::halt`); requests that are being answered end first.
@@ -286,11 +330,12 @@ impl Service {
             .routes
             .fallback(async || Problem::no_address())
             .method_not_allowed_fallback(async || Problem::method())
+            .layer(middleware::from_fn_with_state(Arc::clone(&self.shared), guard::pass))
             .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
             .layer(middleware::from_fn_with_state(Arrivals::new(&self.limits), arrival::pass))
             .layer(tower_http::compression::CompressionLayer::new())
             .layer(middleware::map_response(compression::tag))
-            .layer(middleware::from_fn_with_state(gate::Gate::new(self.here), gate::pass))
+            .layer(middleware::from_fn_with_state(gate::Gate::new(&self.listen), gate::pass))
             .layer(middleware::from_fn_with_state(Arc::clone(&self.shared.counters), observe::pass))
             .with_state(Arc::clone(&self.shared));
         runtime.block_on(async {
@@ -306,7 +351,7 @@ impl Service {
                 }
                 let _ = stop.send(true);
             };
-            let served = connections::serve(listener, routes, self.limits, stopped).await;
+            let served = connections::serve(listener, routes, self.tls, self.limits, stopped).await;
             for worker in workers {
                 // One that broke off has left its task to others.
                 let _ = worker.await;

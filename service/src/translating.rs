@@ -14,6 +14,7 @@ use utoipa::ToSchema;
 
 use crate::compiler::{self, DONE, put_machine, refusal};
 use crate::http::Problem;
+use crate::rights::Act;
 use crate::store::{Outcome, Revision, State, Store, StoreError, Translation, Wanted, digest};
 
 /// Bytes of the programs of a folder that are looked through for called ones, at most.
@@ -222,6 +223,7 @@ pub(crate) fn translate(
     id: String,
     author: &str,
 ) -> Result<(Translation, bool), Problem> {
+    store.allows(Act::Change, &asked.program)?;
     let mut ready = ready(store, asked)?;
     for there in store.same_translations(&ready.key)? {
         if calls_the_same(store, &ready.of, &inputs(&there)?.called)? {

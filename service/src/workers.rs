@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use tokio::sync::watch;
 
 use crate::Shared;
-use crate::access::Caller;
+use crate::access::{Caller, guard};
 use crate::http::Problem;
 use crate::rights::Who;
 use crate::store::{End, Store, Task};
@@ -29,7 +29,7 @@ enum Left {
 
 /// Works until it is asked to stop.
 pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
-    let ncc = Caller::of(Who::default());
+    let ncc = Caller::of(Who::service());
     let Ok(name) = crate::api::new_id() else {
         crate::observe::fault("a worker has no name: the system gives no random bytes");
         return;
@@ -49,7 +49,7 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
                 continue;
             }
         };
-        let done = do_task(&shared, &task, &mut stop).await;
+        let done = do_task(&shared, &ncc, &task, &mut stop).await;
         let worker = name.clone();
         let ended = shared
             .store(&ncc, move |store| {
@@ -74,10 +74,15 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
 /// Does a task, unless its job is cancelled or the worker asked to stop meanwhile.
 async fn do_task(
     shared: &Arc<Shared>,
+    ncc: &Caller,
     task: &Task,
     stop: &mut watch::Receiver<bool>,
 ) -> Result<(End, Value), Left> {
-    let (own, author) = (task.clone(), Caller::of(Who::local(&task.author)));
+    let own = task.clone();
+    let author = match guard::author(shared, &task.author).await {
+        Ok(author) => author,
+        Err(problem) => return Ok((End::Refused, told(&problem))),
+    };
     let mut work = std::pin::pin!(shared.compile_in_turn(&author, move |store| Ok(translated(store, &own))));
     loop {
         tokio::select! {
@@ -90,7 +95,7 @@ async fn do_task(
             () = tokio::time::sleep(GLANCE) => {}
         }
         let job = task.job.clone();
-        if shared.store(&author, move |store| Ok(store.job(&job)?.is_cancelled)).await.unwrap_or(false) {
+        if shared.store(ncc, move |store| Ok(store.job(&job)?.is_cancelled)).await.unwrap_or(false) {
             return Err(Left::Cancelled);
         }
     }

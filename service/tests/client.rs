@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-use ncc_service::{Limits, Part, Place, Service};
+use ncc_service::{Limits, Listen, Part, Place, Service};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -26,6 +26,7 @@ pub(crate) const PROGRAM: &str = "T1M6\nS1000M3\nG0X1.Y2.Z3.\nG1X10.F100\nM5\n";
 /// A server in this process. Its database goes with it.
 pub(crate) struct Server {
     pub(crate) address: SocketAddr,
+    place: Option<Place>,
     _folder: Option<TempDir>,
 }
 
@@ -82,13 +83,61 @@ impl Server {
 
     /// One that has a part alone.
     pub(crate) fn of(part: &Part, limits: Limits) -> Server {
-        let any = SocketAddr::from(([127, 0, 0, 1], 0));
-        let service = Service::with_limits(any, part, "ana", limits).expect("a server");
+        Server::at(SocketAddr::from(([127, 0, 0, 1], 0)), part, limits)
+    }
+
+    /// One that listens in another way.
+    pub(crate) fn at(listen: impl Into<Listen>, part: &Part, limits: Limits) -> Server {
+        let service = Service::with_limits(listen, part, "ana", limits);
+        let service = service.unwrap_or_else(|error| panic!("no server: {error:?}"));
         let address = service.address();
-        let address = address.strip_prefix("http://").and_then(|a| a.parse().ok()).expect("an address");
+        let address = address.split_once("://").and_then(|(_, address)| address.parse().ok());
+        let place = match part {
+            Part::All { database } | Part::Persistence { database } => Some(database.clone()),
+            _ => None,
+        };
         // It serves until the process of the tests ends.
         std::thread::spawn(move || service.serve());
-        Server { address, _folder: None }
+        Server { address: address.expect("an address"), place, _folder: None }
+    }
+
+    /// The place of its database.
+    pub(crate) fn place(&self) -> Place {
+        self.place.clone().expect("a store")
+    }
+
+    /// Changes its database behind its back.
+    ///
+    /// # Errors
+    /// The words of the database.
+    pub(crate) fn sql(&self, sql: &str) -> Result<(), String> {
+        match self.place() {
+            Place::File(path) => rusqlite::Connection::open(path)
+                .and_then(|file| {
+                    file.busy_timeout(PATIENCE)?;
+                    file.execute_batch(sql)
+                })
+                .map_err(|error| error.to_string()),
+            Place::Server(address) => postgres::Client::connect(&address, postgres::NoTls)
+                .and_then(|mut client| client.batch_execute(sql))
+                .map_err(|error| format!("{error:?}")),
+        }
+    }
+
+    /// The first column of rows of its database.
+    pub(crate) fn select(&self, sql: &str) -> Vec<String> {
+        match self.place() {
+            Place::File(path) => {
+                let file = rusqlite::Connection::open(path).expect("the file");
+                let mut select = file.prepare(sql).expect("a statement");
+                let rows = select.query_map([], |row| row.get::<_, String>(0)).expect("rows");
+                rows.map(|row| row.expect("a text")).collect()
+            }
+            Place::Server(address) => {
+                let mut client = postgres::Client::connect(&address, postgres::NoTls).expect("the server");
+                client.query(sql, &[]).expect("rows").iter().map(|row| row.get(0)).collect()
+            }
+        }
     }
 
     /// A connection.

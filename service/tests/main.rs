@@ -1,5 +1,6 @@
 //! The service over sockets: what the sources list, and what nobody should be able to do.
 #![allow(clippy::print_stdout, reason = "a test that is skipped says so")]
+mod access;
 mod attacks;
 mod book;
 mod client;

@@ -1,6 +1,7 @@
 //! The three services as processes of their own: TRANSPILER and OUTPUT find PERSISTENCE over HTTP.
 
 use std::fs;
+use std::net::SocketAddr;
 
 use ncc_service::{Limits, OpenError, Part, Place, Service};
 
@@ -140,10 +141,11 @@ fn without_persistence_there_is_no_document() {
 fn a_server_opens_on_this_computer_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let all = |file: &str| Part::All { database: Place::File(folder.path().join(file)) };
-    let open =
-        |address: &str, part: &Part| Service::open(address.parse().expect("an address"), part, "ana").err();
+    let open = |address: &str, part: &Part| {
+        Service::open(address.parse::<SocketAddr>().expect("an address"), part, "ana").err()
+    };
     for address in ["0.0.0.0:0", "192.0.2.1:0", "[::]:0"] {
-        assert!(matches!(open(address, &all("a")), Some(OpenError::NotThisComputer)), "{address}");
+        assert!(matches!(open(address, &all("a")), Some(OpenError::NoAccount)), "{address}");
     }
     let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
     let taken = taken.local_addr().expect("an address").to_string();

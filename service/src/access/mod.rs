@@ -1,55 +1,52 @@
 //! Access: the user of a request, and the acts that are allowed to this user.
 //!
-//! Not here: which acts a role has ([`crate::rights`]).
+//! | addresses | what |
+//! |---|---|
+//! | `/api/v1/session` | login, logout, the own password |
+//! | `/api/v1/tokens` | tokens of programs that ask for an account |
+//! | `/api/v1/accounts`, `/api/v1/audit` | accounts and the audit, for admins |
+//!
+//! [`guard`] finds the user of each request before its handler sees it. The store asks once more, in the transaction of
+//! the change itself, so that no handler can forget to. Not here: which acts a role has (`rights`).
+
+mod accounts;
+mod audit;
+mod buckets;
+mod caller;
+mod checks;
+mod command;
+pub(crate) mod guard;
+mod passwords;
+mod secrets;
+mod sessions;
+mod tokens;
 
 use std::sync::Arc;
 
-use axum::extract::FromRequestParts;
-use axum::http::request::Parts;
+use axum::extract::DefaultBodyLimit;
+use axum::routing::{delete, get, put};
+use utoipa_axum::router::OpenApiRouter;
 
 use crate::Shared;
-use crate::http::Problem;
-use crate::rights::{Act, Who};
 
-/// The user of a request. Each handler takes one, and passes it on to the store.
-#[derive(Clone, Debug)]
-pub(crate) struct Caller(Arc<Who>);
+pub(crate) use self::caller::Caller;
+pub use self::command::{Users, UsersError};
 
-impl Caller {
-    /// A user without a request, such as the author of a job.
-    pub(crate) fn of(who: Who) -> Caller {
-        Caller(Arc::new(who))
-    }
+/// Bytes of a request at most: rights of an account are the longest.
+const LARGEST: usize = 1 << 17;
 
-    /// Author of the changes.
-    pub(crate) fn name(&self) -> &str {
-        &self.0.name
-    }
-
-    /// The user, for the store.
-    pub(crate) fn who(&self) -> Arc<Who> {
-        Arc::clone(&self.0)
-    }
-
-    /// The act is allowed in a folder; empty is the top. A folder that may not be read is as one that is not there.
-    ///
-    /// # Errors
-    /// 404 where the user may not even read, 403 otherwise.
-    pub(crate) fn may(&self, act: Act, folder: &str) -> Result<(), Problem> {
-        if self.0.may(act, folder) {
-            return Ok(());
-        }
-        Err(match self.0.may(Act::Read, folder) {
-            true => Problem::forbidden("your rights do not include this"),
-            false => Problem::absent("there is none"),
-        })
-    }
-}
-
-impl FromRequestParts<Arc<Shared>> for Caller {
-    type Rejection = Problem;
-
-    async fn from_request_parts(_: &mut Parts, shared: &Arc<Shared>) -> Result<Caller, Problem> {
-        Ok(Caller(Arc::new(Who::local(&shared.author))))
-    }
+/// Addresses of sessions, tokens, accounts and the audit.
+pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
+    OpenApiRouter::new()
+        .route("/api/v1/session", get(sessions::read).post(sessions::login).delete(sessions::logout))
+        .route("/api/v1/session/password", put(sessions::password))
+        .route("/api/v1/tokens", get(tokens::list).post(tokens::create))
+        .route("/api/v1/tokens/{id}", delete(tokens::delete))
+        .route("/api/v1/accounts", get(accounts::list).post(accounts::create))
+        .route(
+            "/api/v1/accounts/{name}",
+            get(accounts::read).patch(accounts::change).delete(accounts::delete),
+        )
+        .route("/api/v1/audit", get(audit::read))
+        .layer(DefaultBodyLimit::max(LARGEST))
 }

@@ -33,6 +33,7 @@ use crate::access::Caller;
 use crate::http::body::{self, LISTED};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 use crate::store::{Job, TaskResult, Wanted};
 use crate::translating::Asked;
 
@@ -162,6 +163,7 @@ pub(super) async fn create(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may_somewhere(Act::Change)?;
     let (which, asked) = taken_apart(body::json(&headers, body)?)?;
     let (id, author) = (new_id()?, caller.name().to_owned());
     let place = format!("/api/v1/jobs/{id}");
@@ -169,12 +171,14 @@ pub(super) async fn create(
         .store(&caller, move |store| {
             let mut programs = Vec::new();
             for program in &which.programs {
+                store.allows(Act::Change, program)?;
                 programs.push((program.clone(), store.program(program)?.number));
             }
             if which.under.is_some() || which.tag.is_some() {
                 // The top has all folders below it.
                 let under = which.under.filter(|folder| !folder.is_empty());
-                let wanted = Wanted { under, tag: which.tag, most: PROGRAMS, ..Wanted::default() };
+                let wanted =
+                    Wanted { under, tag: which.tag, most: PROGRAMS, act: Act::Change, ..Wanted::default() };
                 programs.extend(store.programs(&wanted)?.into_iter().map(|own| (own.program, own.number)));
             }
             let asked = serde_json::to_string(&asked).unwrap_or_default();
@@ -234,7 +238,6 @@ pub(super) async fn cancel(
     Query::of(query.as_deref()).end("")?;
     let job = shared
         .store(&caller, move |store| {
-            store.job(&id)?;
             store.cancel(&id)?;
             Ok(store.job(&id)?)
         })
@@ -260,12 +263,7 @@ pub(super) async fn results(
     let after = query.number("after")?.unwrap_or(0);
     let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
     query.end("after, limit")?;
-    let all = shared
-        .store(&caller, move |store| {
-            store.job(&id)?;
-            Ok(store.results(&id, after, most)?)
-        })
-        .await?;
+    let all = shared.store(&caller, move |store| Ok(store.results(&id, after, most)?)).await?;
     let next = all.last().filter(|_| all.len() == most as usize).map(|last| last.number);
     let task = |of: &TaskResult| {
         let [folder, name] = &of.place;

@@ -68,7 +68,7 @@ pub(super) async fn create(
     let once = once(&headers, &asked)?;
     let mut query = Query::of(Some(&asked));
     let details = details(&mut query)?;
-    caller.may(Act::Change, &details.folder)?;
+    caller.may_in(Act::Change, &details.folder)?;
     let said = said(&mut query, caller.name())?;
     query.end("name, folder, dialect, machine, tag, message")?;
     let text = receive(&shared, &caller, &headers, body).await?;
@@ -88,10 +88,7 @@ pub(super) async fn create(
 
 /// A name that nothing else has: 100 bits by chance.
 pub(crate) fn new_id() -> Result<String, Problem> {
-    const SIGNS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstvwxyz";
-    let mut bytes = [0_u8; 20];
-    getrandom::fill(&mut bytes).map_err(|_| Problem::fault())?;
-    Ok(bytes.iter().map(|byte| char::from(SIGNS[usize::from(byte % 32)])).collect())
+    crate::chance::signs(20).map_err(|_| Problem::fault())
 }
 
 /// A page of programs.
@@ -132,6 +129,7 @@ pub(super) async fn list(
         machine: query.one("machine")?,
         deleted: query.among("deleted", &[("true", true), ("false", false)])?.unwrap_or(false),
         after: query.one("after")?,
+        act: Act::Read,
         most: query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]),
     };
     query.end("folder, under, name, tag, dialect, machine, deleted, after, limit")?;

@@ -86,12 +86,7 @@ pub(super) async fn list(
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let steps = shared
-        .store(&caller, move |store| {
-            store.translation(&id)?;
-            Ok(store.steps(&id)?)
-        })
-        .await?;
+    let steps = shared.store(&caller, move |store| Ok(store.steps(&id)?)).await?;
     Ok(http::json(&Steps { states: steps.iter().map(told).collect() }))
 }
 
@@ -116,6 +111,7 @@ pub(super) async fn step(
     let said = Said { author: caller.name().to_owned(), message: asked.message };
     let document = shared
         .compile(&caller, move |store| {
+            store.allows_step(&id, asked.state)?;
             let of = store.translation(&id)?;
             may_step(store, &of, asked.state)?;
             let holds =

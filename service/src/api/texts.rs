@@ -16,6 +16,7 @@ use crate::http::Problem;
 use crate::http::body::{self, encoded};
 use crate::http::conditions::{expected, is_known, not_modified};
 use crate::http::query::Query;
+use crate::rights::Act;
 use crate::store::{Content, Receiving, Revision};
 
 /// Group of the addresses in the description.
@@ -96,6 +97,9 @@ pub(super) async fn change(
     let said = said(&mut query, caller.name())?;
     query.end("message")?;
     let over = expected(&headers)?;
+    let program = id.clone();
+    // Before the body is received.
+    shared.store(&caller, move |store| Ok(store.allows(Act::Change, &program)?)).await?;
     let text = receive(&shared, &caller, &headers, body).await?;
     let made = shared
         .store(&caller, move |store| {

@@ -26,6 +26,7 @@ use crate::http::body::{self, LISTED};
 use crate::http::conditions::{etag, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 use crate::store::{Outcome, State as Wanted, Store, Translation};
 use crate::translating::{Asked, certificate, stale, translate};
 
@@ -106,6 +107,7 @@ pub(super) async fn create(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may_somewhere(Act::Change)?;
     let asked: Asked = body::json(&headers, body)?;
     let (id, author) = (new_id()?, caller.name().to_owned());
     let (document, place, is_new) = shared
@@ -192,6 +194,8 @@ pub(super) async fn outcome(
     };
     let tag = etag(&id, &what);
     if is_known(&headers, &tag) {
+        // Who may not read it learns nothing by its tag.
+        shared.store(&caller, move |store| Ok(store.translation(&id)?)).await?;
         return Ok(not_modified(tag));
     }
     let bytes = match outcome {

@@ -23,6 +23,7 @@ use crate::http::body::{self, LISTED, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 use crate::store::{Listed, Parts};
 
 /// Group of the addresses in the description.
@@ -98,6 +99,7 @@ pub(super) async fn create(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may(Act::Change, "")?;
     let body = body::whole(body, shared.largest)?;
     let place = format!("/persistence/{}", encoded(&name));
     let tag = shared
@@ -123,6 +125,7 @@ pub(super) async fn update(
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    caller.may(Act::Change, "")?;
     let over = expected(&headers)?;
     let body = body::whole(body, shared.largest)?;
     let tag = shared

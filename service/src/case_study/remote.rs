@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use axum::http::StatusCode;
+use axum::http::{HeaderValue, StatusCode};
 use serde::Deserialize;
 use serde_json::Value;
 use ureq::Agent;
-use ureq::http::header::{CONTENT_TYPE, ETAG, IF_MATCH};
+use ureq::http::header::{AUTHORIZATION, CONTENT_TYPE, ETAG, IF_MATCH};
 
 use super::document::{WHOLE_MEDIA, Whole};
 use crate::http::Problem;
@@ -21,10 +21,13 @@ const PATIENCE: Duration = Duration::from_secs(30);
 const MOST: u64 = 1 << 30;
 
 /// A PERSISTENCE elsewhere.
+#[derive(Clone)]
 pub(crate) struct Remote {
     agent: Agent,
     /// Its address, without `/` at the end.
     address: String,
+    /// The token of the request, by which PERSISTENCE decides.
+    bearer: Option<HeaderValue>,
 }
 
 /// An answer.
@@ -44,7 +47,16 @@ impl Remote {
             // No other host is asked, whatever the environment says.
             .proxy(None)
             .build();
-        Remote { agent: Agent::new_with_config(config), address: address.trim_end_matches('/').to_owned() }
+        Remote {
+            agent: Agent::new_with_config(config),
+            address: address.trim_end_matches('/').to_owned(),
+            bearer: None,
+        }
+    }
+
+    /// The same for a request with a token, or without.
+    pub(super) fn with(&self, bearer: Option<HeaderValue>) -> Remote {
+        Remote { bearer, ..self.clone() }
     }
 
     fn ask(
@@ -57,6 +69,9 @@ impl Remote {
         let cannot = |error: ureq::Error| Problem::other_service(format!("PERSISTENCE: {error}"));
         let mut request =
             ureq::http::Request::builder().method(method).uri(format!("{}{path}", self.address));
+        if let Some(bearer) = &self.bearer {
+            request = request.header(AUTHORIZATION, bearer);
+        }
         if let Condition::OneOf(tags) = over {
             let tags: Vec<String> = tags.iter().map(|tag| etag(tag, "")).collect();
             // Tags that nobody can have match nothing, as an empty list would.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Remote;
 use super::document::Whole;
+use crate::access::Caller;
 use crate::http::Problem;
-use crate::rights::Who;
 use crate::store::{Condition, Listed, Machine, Parts, Store};
 
 /// The place of documents.
@@ -37,10 +37,10 @@ fn heed() -> Result<(), Problem> {
 
 impl Shelf {
     /// The same shelf for a user.
-    pub(crate) fn of(&self, who: Arc<Who>) -> Shelf {
+    pub(crate) fn of(&self, caller: &Caller) -> Shelf {
         match self {
-            Shelf::Here(store) => Shelf::Here(store.of(who)),
-            Shelf::There(remote) => Shelf::There(Arc::clone(remote)),
+            Shelf::Here(store) => Shelf::Here(store.of(caller.who())),
+            Shelf::There(remote) => Shelf::There(Arc::new(remote.with(caller.bearer()))),
         }
     }
 

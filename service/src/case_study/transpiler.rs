@@ -21,6 +21,7 @@ use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 
 /// Group of the addresses in the description.
 const TAG: &str = "case study";
@@ -131,6 +132,7 @@ pub(super) async fn create(
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
+    caller.may(Act::Change, "")?;
     let mut setting = stated(query.as_deref())?;
     let program = program(&headers, body, shared.largest)?;
     let place = format!("/transpiler/{}", encoded(&name));
@@ -173,6 +175,7 @@ pub(super) async fn update(
     headers: HeaderMap,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
+    caller.may(Act::Change, "")?;
     let mut setting = stated(query.as_deref())?;
     let over = expected(&headers)?;
     let program = program(&headers, body, shared.largest)?;

@@ -9,6 +9,7 @@ pub(crate) mod gate;
 pub(crate) mod openapi;
 pub(crate) mod problem;
 pub(crate) mod query;
+pub(crate) mod tls;
 
 use std::time::{Duration, UNIX_EPOCH};
 

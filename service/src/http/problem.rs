@@ -1,6 +1,6 @@
 //! Errors as documents by RFC 9457: `application/problem+json`.
 
-use axum::http::header::{CONTENT_TYPE, RETRY_AFTER};
+use axum::http::header::{CONTENT_TYPE, RETRY_AFTER, WWW_AUTHENTICATE};
 use axum::http::{HeaderValue, StatusCode};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -61,6 +61,8 @@ const NOT_MADE: Kind = ("not-made", StatusCode::UNPROCESSABLE_ENTITY, "this outp
 const TOO_LONG: Kind = ("too-long", StatusCode::UNPROCESSABLE_ENTITY, "the program takes too long");
 const STRANGER: Kind = ("stranger", StatusCode::FORBIDDEN, "the request is not meant for this server");
 const FORBIDDEN: Kind = ("forbidden", StatusCode::FORBIDDEN, "you have no right to this");
+const LOGIN: Kind = ("login-needed", StatusCode::UNAUTHORIZED, "a login is needed");
+const TOO_MANY: Kind = ("too-many", StatusCode::TOO_MANY_REQUESTS, "too many requests");
 const METHOD: Kind = ("method", StatusCode::METHOD_NOT_ALLOWED, "the address does not take this method");
 const REUSED: Kind = ("reused", StatusCode::UNPROCESSABLE_ENTITY, "the key was used for another request");
 const FULL: Kind = ("full", StatusCode::INSUFFICIENT_STORAGE, "the disk is full");
@@ -94,6 +96,11 @@ impl Problem {
     pub(crate) fn help(mut self, help: impl Into<String>) -> Problem {
         self.0.help.push(help.into());
         self
+    }
+
+    /// The first action of the user.
+    pub(crate) fn first_help(&self) -> Option<&str> {
+        self.0.help.first().map(String::as_str)
     }
 
     /// The error in one line.
@@ -203,6 +210,30 @@ impl Problem {
         Problem::of(FORBIDDEN, detail)
     }
 
+    /// The request has neither a session nor a token, or one that is over.
+    pub(crate) fn login_needed() -> Problem {
+        Problem::of(LOGIN, "it has neither a session nor a token that holds")
+            .help("POST /api/v1/session begins a session; programs send Authorization: Bearer TOKEN")
+    }
+
+    /// The account is not there, or its password is another one.
+    pub(crate) fn wrong_login() -> Problem {
+        Problem::of(LOGIN, "the user or the password is wrong")
+    }
+
+    /// A request of a session without the value that a page of another server does not have.
+    pub(crate) fn forged() -> Problem {
+        Problem::of(FORBIDDEN, "the header X-NCC-CSRF is not that of the session")
+            .help("GET /api/v1/session has its value: csrf")
+    }
+
+    /// A user asks too often.
+    pub(crate) fn too_many(wait: std::time::Duration) -> Problem {
+        let mut problem = Problem::of(TOO_MANY, "wait as long as Retry-After says");
+        problem.0.retry_after = Some(u32::try_from(wait.as_secs()).unwrap_or(u32::MAX).saturating_add(1));
+        problem
+    }
+
     /// The address does not take the method.
     pub(crate) fn method() -> Problem {
         Problem::of(METHOD, "the Allow header lists those that it takes")
@@ -236,7 +267,7 @@ impl Problem {
 
     /// The same problem of another service, as it was told.
     pub(crate) fn passed_on(status: StatusCode, body: Value) -> Problem {
-        let kind = [ABSENT, EXISTS, CHANGED, TOO_LARGE, CONTENT, FULL, BUSY]
+        let kind = [ABSENT, EXISTS, CHANGED, TOO_LARGE, CONTENT, FULL, BUSY, LOGIN, FORBIDDEN, TOO_MANY]
             .into_iter()
             .find(|kind| kind.1 == status)
             .unwrap_or(OTHER);
@@ -253,6 +284,9 @@ impl From<StoreError> for Problem {
             StoreError::Changed => {
                 Problem::of(CHANGED, "another request has changed it").help("read it again")
             }
+            StoreError::Forbidden => Problem::forbidden("your rights do not include this"),
+            StoreError::LastAdmin => Problem::conflict("nobody could administer the service any more")
+                .help("one account that is not disabled has the role `admin` in the folder \"\""),
             StoreError::Reused => {
                 Problem::of(REUSED, "Idempotency-Key").help("give each request a key of its own")
             }
@@ -274,6 +308,9 @@ impl IntoResponse for Problem {
         let mut answer = (status, [(CONTENT_TYPE, MEDIA)], body).into_response();
         if let Some(seconds) = self.0.retry_after {
             answer.headers_mut().insert(RETRY_AFTER, HeaderValue::from(seconds));
+        }
+        if status == StatusCode::UNAUTHORIZED {
+            answer.headers_mut().insert(WWW_AUTHENTICATE, HeaderValue::from_static("Bearer realm=\"ncc\""));
         }
         answer
     }

@@ -7,12 +7,13 @@
 //! No query, body or header is in the log or in a counter: these may hold secrets.
 
 mod counters;
-pub(crate) mod names;
+mod names;
 mod requests;
 
 pub use self::requests::{Form, Level, log};
 
 pub(crate) use self::counters::{Counters, routes};
+pub(crate) use self::names::RequestName;
 pub(crate) use self::requests::pass;
 
 /// A fault that no answer can report.

@@ -8,6 +8,7 @@ use utoipa::ToSchema;
 
 use super::session::{Row, Session, values};
 use super::{Store, StoreError, digest};
+use crate::rights::Act;
 
 /// Bytes of a piece at most.
 const PIECE: usize = 1 << 20;
@@ -71,9 +72,13 @@ impl Store {
         [machine, dialect]: [&str; 2],
         parts: &Parts,
     ) -> Result<String, StoreError> {
+        self.may(Act::Change, "")?;
         self.database.write(|to| match tag_of(to, name)? {
             Some(_) => Err(StoreError::Exists),
-            None => insert(to, name, [machine, dialect], parts),
+            None => {
+                self.note(to, "document.create", name, "")?;
+                insert(to, name, [machine, dialect], parts)
+            }
         })
     }
 
@@ -85,23 +90,28 @@ impl Store {
         parts: &Parts,
         over: &Condition,
     ) -> Result<String, StoreError> {
+        self.may(Act::Change, "")?;
         self.database.write(|to| {
             over.holds(&tag_of(to, name)?.ok_or(StoreError::Absent)?)?;
             remove(to, name)?;
+            self.note(to, "document.replace", name, "")?;
             insert(to, name, [machine, dialect], parts)
         })
     }
 
     /// Lets go of a document.
     pub(crate) fn delete(&self, name: &str, over: &Condition) -> Result<(), StoreError> {
+        self.may(Act::Change, "")?;
         self.database.write(|to| {
             over.holds(&tag_of(to, name)?.ok_or(StoreError::Absent)?)?;
+            self.note(to, "document.delete", name, "")?;
             remove(to, name)
         })
     }
 
     /// A document and those of its parts that are wanted and there.
     pub(crate) fn parts(&self, name: &str, wanted: &[&str]) -> Result<(Document, Parts), StoreError> {
+        self.may(Act::Read, "")?;
         self.database.read(|from| {
             let about = about(from, name)?;
             let mut parts = Parts::new();
@@ -123,6 +133,9 @@ impl Store {
 
     /// Documents in the order of their names, those after a name, so many at most.
     pub(crate) fn list(&self, after: &str, most: u32) -> Result<Vec<Listed>, StoreError> {
+        if !self.who.may(Act::Read, "") {
+            return Ok(Vec::new());
+        }
         self.database.read(|from| {
             let listed = |mut row: Row| {
                 Ok(Listed {

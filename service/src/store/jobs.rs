@@ -1,13 +1,15 @@
 //! Jobs and their tasks.
 //!
 //! A task is claimed by a worker for a while. If the worker does not end it by then, as after a crash, another one claims it.
-//! Only its worker can end it, so each task ends once.
+//! Only its worker can end it, so each task ends once. A job may be read by whoever may read all of its programs.
 
 use std::collections::BTreeMap;
 
 use super::documents::now;
+use super::programs::holds_in;
 use super::session::{Row, Session, values};
 use super::{Store, StoreError};
+use crate::rights::{Act, Role};
 
 /// A job.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -108,12 +110,13 @@ impl Store {
                 values![id, asked, author, made, programs.is_empty().then_some(made)],
             )?;
             for (number, (program, revision)) in programs.iter().enumerate() {
+                self.may_with(to, program, Act::Change)?;
                 to.change(
                     "INSERT INTO task (job, number, made, program, revision, state) VALUES ($1, $2, $3, $4, $5, 'waiting')",
                     values![id, number as i64 + 1, made, program, *revision],
                 )?;
             }
-            Ok(())
+            self.note(to, "job.create", id, &format!("{} programs", programs.len()))
         })
     }
 
@@ -197,6 +200,8 @@ impl Store {
     /// Cancels a job: no further task of it begins.
     pub(crate) fn cancel(&self, id: &str) -> Result<(), StoreError> {
         self.database.write(|to| {
+            self.may_with_job(to, id, Act::Change)?;
+            self.note(to, "job.cancel", id, "")?;
             to.change("UPDATE job SET is_cancelled = TRUE WHERE id = $1 AND ended IS NULL", values![id])?;
             to.change(
                 "UPDATE task SET state = 'cancelled' WHERE job = $1 AND state = 'waiting'
@@ -210,6 +215,7 @@ impl Store {
     /// A job.
     pub(crate) fn job(&self, id: &str) -> Result<Job, StoreError> {
         self.database.read(|from| {
+            self.may_with_job(from, id, Act::Read)?;
             let sql = "SELECT id, asked, author, made, ended, is_cancelled FROM job WHERE id = $1";
             let mut job = read(from.row(sql, values![id])?)?;
             count(from, &mut job)?;
@@ -220,13 +226,19 @@ impl Store {
     /// Jobs, the newest first, so many at most; those before one.
     pub(crate) fn jobs(&self, before: Option<&str>, most: u32) -> Result<Vec<Job>, StoreError> {
         self.database.read(|from| {
-            let mut jobs = from.read(
+            // Of a job without programs, its author alone may know.
+            let sql = format!(
                 "SELECT id, asked, author, made, ended, is_cancelled FROM job
-                 WHERE CAST($1 AS TEXT) IS NULL OR (made, id) < (SELECT made, id FROM job WHERE id = $1)
+                 WHERE (CAST($1 AS TEXT) IS NULL OR (made, id) < (SELECT made, id FROM job WHERE id = $1))
+                   AND (CAST($3 AS TEXT) IS NULL
+                        OR (author = $3 OR EXISTS (SELECT 1 FROM task t WHERE t.job = job.id))
+                           AND NOT EXISTS (SELECT 1 FROM task t JOIN program p ON p.id = t.program
+                                           WHERE t.job = job.id AND NOT {}))
                  ORDER BY made DESC, id DESC LIMIT $2",
-                values![before, most],
-                read,
-            )?;
+                holds_in("p.folder", "$3", "$4")
+            );
+            let rank = Role::of(Act::Read).rank();
+            let mut jobs = from.read(&sql, values![before, most, self.reader(), rank], read)?;
             jobs.iter_mut().try_for_each(|job| count(from, job))?;
             Ok(jobs)
         })
@@ -235,6 +247,7 @@ impl Store {
     /// Tasks of a job with their results, after a number, `most` at most.
     pub(crate) fn results(&self, id: &str, after: i64, most: u32) -> Result<Vec<TaskResult>, StoreError> {
         self.database.read(|from| {
+            self.may_with_job(from, id, Act::Read)?;
             let result = |mut row: Row| {
                 Ok(TaskResult {
                     number: row.int(0)?,
@@ -253,6 +266,24 @@ impl Store {
                 result,
             )
         })
+    }
+}
+
+impl Store {
+    /// The user may do something with all programs of a job.
+    fn may_with_job(&self, from: &dyn Session, id: &str, act: Act) -> Result<(), StoreError> {
+        let author = from.row("SELECT author FROM job WHERE id = $1", values![id])?.text(0)?;
+        let folders = from.read(
+            "SELECT DISTINCT p.folder FROM task t JOIN program p ON p.id = t.program WHERE t.job = $1",
+            values![id],
+            |mut row| row.text(0),
+        )?;
+        if folders.is_empty() && author != self.who.name {
+            return self.may(act, "");
+        }
+        // One that may not be read is worse than one that may not be changed.
+        folders.iter().try_for_each(|folder| self.may(Act::Read, folder))?;
+        folders.iter().try_for_each(|folder| self.may(act, folder))
     }
 }
 

@@ -1,8 +1,9 @@
-//! Profiles of machines, by their names.
+//! Profiles of machines, by their names. Whoever may read anything may read them: programs are made for them.
 
 use super::documents::{Condition, now};
 use super::session::{Row, values};
 use super::{Store, StoreError, digest};
+use crate::rights::Act;
 
 /// A profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +23,9 @@ fn machine(mut row: Row) -> Result<Machine, StoreError> {
 impl Store {
     /// The profile under a name.
     pub(crate) fn machine(&self, name: &str) -> Result<Machine, StoreError> {
+        if !self.who.reads_anything() {
+            return Err(StoreError::Absent);
+        }
         self.database.read(|from| {
             machine(from.row("SELECT name, text, tag FROM machine WHERE name = $1", values![name])?)
         })
@@ -29,6 +33,9 @@ impl Store {
 
     /// All profiles, in the order of their names.
     pub(crate) fn machines(&self) -> Result<Vec<Machine>, StoreError> {
+        if !self.who.reads_anything() {
+            return Ok(Vec::new());
+        }
         self.database
             .read(|from| from.read("SELECT name, text, tag FROM machine ORDER BY name", values![], machine))
     }
@@ -40,6 +47,7 @@ impl Store {
         text: &str,
         over: &Condition,
     ) -> Result<(String, bool), StoreError> {
+        self.may(Act::Administer, "")?;
         self.database.write(|to| {
             let there = to.maybe_row("SELECT tag FROM machine WHERE name = $1", values![name])?;
             let there = there.map(|mut row| row.text(0)).transpose()?;
@@ -54,16 +62,18 @@ impl Store {
                  ON CONFLICT (name) DO UPDATE SET text = excluded.text, tag = excluded.tag, changed = excluded.changed",
                 values![name, text, &tag, now()],
             )?;
+            self.note(to, "machine.put", name, &tag)?;
             Ok((tag, there.is_none()))
         })
     }
 
     /// Lets go of a profile.
     pub(crate) fn delete_machine(&self, name: &str, over: &Condition) -> Result<(), StoreError> {
+        self.may(Act::Administer, "")?;
         self.database.write(|to| {
             over.holds(&to.row("SELECT tag FROM machine WHERE name = $1", values![name])?.text(0)?)?;
             to.change("DELETE FROM machine WHERE name = $1", values![name])?;
-            Ok(())
+            self.note(to, "machine.delete", name, "")
         })
     }
 }

@@ -3,10 +3,13 @@
 //! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`; `documents`, `machines`, `programs` and their `contents` are what is kept. Every change is one transaction: it is
 //! there as a whole, or not at all. Not here: what a document says, and HTTP.
 
+mod accounts;
+mod audit;
 mod contents;
 mod database;
 mod documents;
 mod jobs;
+mod logins;
 mod machines;
 mod migrations;
 mod postgres;
@@ -23,11 +26,14 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 
 use self::database::Database;
-use crate::rights::Who;
+use crate::rights::{Act, Who};
 
+pub(crate) use self::accounts::{Account, AccountChange};
+pub(crate) use self::audit::{Entry, Filter};
 pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::jobs::{End, Job, Task, TaskResult};
+pub(crate) use self::logins::Token;
 pub(crate) use self::machines::Machine;
 pub(crate) use self::programs::{Change, Details, Once, Revision, Said, Wanted};
 pub(crate) use self::states::{State, Step};
@@ -42,6 +48,10 @@ pub(crate) enum StoreError {
     Exists,
     /// It is not what the writer has read.
     Changed,
+    /// The user has no right to it.
+    Forbidden,
+    /// Nobody could administer any more.
+    LastAdmin,
     /// The key of a request that may be sent again was used for another request.
     Reused,
     /// The disk is full.
@@ -58,6 +68,8 @@ impl fmt::Display for StoreError {
             StoreError::Absent => out.write_str("nothing has this name"),
             StoreError::Exists => out.write_str("the name is taken"),
             StoreError::Changed => out.write_str("it has been changed meanwhile"),
+            StoreError::Forbidden => out.write_str("there is no right to it"),
+            StoreError::LastAdmin => out.write_str("an admin of everything has to stay"),
             StoreError::Reused => out.write_str("the key was used for another request"),
             StoreError::Full => out.write_str("the disk is full"),
             StoreError::Busy => out.write_str("others write for too long"),
@@ -82,7 +94,6 @@ pub enum Place {
 pub(crate) struct Store {
     database: Arc<Database>,
     /// The user whose rights hold, and who is the author of changes.
-    #[expect(dead_code, reason = "rights follow")]
     who: Arc<Who>,
 }
 
@@ -92,7 +103,7 @@ impl Store {
     /// # Errors
     /// It is no database of ncc, one of a later ncc, or cannot be reached or written.
     pub(crate) fn open(place: &Place) -> Result<Store, StoreError> {
-        let store = Store { database: Arc::new(Database::open(place)?), who: Arc::new(Who::default()) };
+        let store = Store { database: Arc::new(Database::open(place)?), who: Arc::new(Who::service()) };
         store.tidy()?;
         Ok(store)
     }
@@ -100,6 +111,26 @@ impl Store {
     /// The same store for a user.
     pub(crate) fn of(&self, who: Arc<Who>) -> Store {
         Store { database: Arc::clone(&self.database), who }
+    }
+
+    /// The user may do something in a folder. A folder that may not be read is as one that is not there. Machines and
+    /// accounts are no secret.
+    fn may(&self, act: Act, folder: &str) -> Result<(), StoreError> {
+        match (self.who.may(act, folder), act == Act::Administer || self.who.may(Act::Read, folder)) {
+            (true, _) => Ok(()),
+            (false, true) => Err(StoreError::Forbidden),
+            (false, false) => Err(StoreError::Absent),
+        }
+    }
+
+    /// The user may do something in a folder that the user has named.
+    fn may_put_into(&self, folder: &str) -> Result<(), StoreError> {
+        if self.who.may(Act::Change, folder) { Ok(()) } else { Err(StoreError::Forbidden) }
+    }
+
+    /// The account whose rights decide what a list has; nothing where the user may read everything.
+    fn reader(&self) -> Option<&str> {
+        if self.who.may(Act::Read, "") { None } else { Some(&self.who.name) }
     }
 }
 

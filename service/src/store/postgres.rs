@@ -79,7 +79,7 @@ pub(super) fn migrate(link: &mut Link) -> Result<(), StoreError> {
     let taken: i64 =
         change.query_one("SELECT coalesce(max(number), 0) FROM ncc_migration", &[])?.try_get(0)?;
     for (at, step) in migrations::left(taken)?.iter().enumerate() {
-        change.batch_execute(&translated(step))?;
+        change.batch_execute(&translated(&migrations::lines_for(step, "postgres")))?;
         change.execute("INSERT INTO ncc_migration (number) VALUES ($1)", &[&(taken + at as i64 + 1)])?;
     }
     Ok(change.commit()?)

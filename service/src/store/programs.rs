@@ -10,6 +10,7 @@ use super::contents::{Content, Receiving, settle};
 use super::documents::now;
 use super::session::{Row, Session, values};
 use super::{Condition, Store, StoreError};
+use crate::rights::{Act, Role};
 
 /// The kind of change of a revision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ToSchema)]
@@ -109,6 +110,8 @@ pub(crate) struct Wanted {
     pub(crate) after: Option<String>,
     /// So many at most.
     pub(crate) most: u32,
+    /// Those with which the user may do this.
+    pub(crate) act: Act,
 }
 
 /// A request that may be sent again: its key, and a digest of what it asks.
@@ -131,6 +134,7 @@ impl Store {
         once: Option<&Once>,
     ) -> Result<Revision, StoreError> {
         self.database.write(|to| {
+            self.may_put_into(&details.folder)?;
             let content = settle(to, text)?;
             let request = once.map(|once| format!("{} {}", once.request, content.sha256));
             if let (Some(once), Some(request)) = (once, &request) {
@@ -139,8 +143,10 @@ impl Store {
                     values![&once.key],
                 )?;
                 if let Some(mut done) = done {
-                    return match done.text(0)? == *request {
-                        true => revision(to, &done.text(1)?, done.int(2)?),
+                    let (is_same, program) = (done.text(0)? == *request, done.text(1)?);
+                    // Another user may have the same key, and the program may have been put elsewhere.
+                    return match is_same && self.may_with(to, &program, Act::Read).is_ok() {
+                        true => revision(to, &program, done.int(2)?),
                         false => Err(StoreError::Reused),
                     };
                 }
@@ -154,7 +160,7 @@ impl Store {
                 "INSERT INTO program (id, folder, name, head, is_deleted) VALUES ($1, $2, $3, 0, FALSE)",
                 values![id, &details.folder, &details.name],
             )?;
-            add(to, id, 1, details, &content, Change::Created, said)
+            self.add(to, id, 1, details, &content, Change::Created, said)
         })
     }
 
@@ -167,7 +173,7 @@ impl Store {
         over: &Condition,
     ) -> Result<Revision, StoreError> {
         self.database.write(|to| {
-            let head = head(to, id, over)?;
+            let head = self.head(to, id, Act::Change, over)?;
             if head.change == Change::Deleted {
                 return Err(StoreError::Absent);
             }
@@ -175,7 +181,7 @@ impl Store {
             if content.sha256 == head.content.sha256 {
                 return Ok(head);
             }
-            add(to, id, head.number + 1, &head.details, &content, Change::Text, said)
+            self.add(to, id, head.number + 1, &head.details, &content, Change::Text, said)
         })
     }
 
@@ -188,7 +194,7 @@ impl Store {
         over: &Condition,
     ) -> Result<Revision, StoreError> {
         self.database.write(|to| {
-            let head = head(to, id, over)?;
+            let head = self.head(to, id, Act::Change, over)?;
             if head.change == Change::Deleted {
                 return Err(StoreError::Absent);
             }
@@ -197,8 +203,11 @@ impl Store {
             if details == head.details {
                 return Ok(head);
             }
+            if details.folder != head.details.folder {
+                self.may_put_into(&details.folder)?;
+            }
             is_free(to, &details, id)?;
-            add(to, id, head.number + 1, &details, &head.content, Change::Details, said)
+            self.add(to, id, head.number + 1, &details, &head.content, Change::Details, said)
         })
     }
 
@@ -210,11 +219,11 @@ impl Store {
         over: &Condition,
     ) -> Result<Revision, StoreError> {
         self.database.write(|to| {
-            let head = head(to, id, over)?;
+            let head = self.head(to, id, Act::Change, over)?;
             if head.change == Change::Deleted {
                 return Err(StoreError::Absent);
             }
-            add(to, id, head.number + 1, &head.details, &head.content, Change::Deleted, said)
+            self.add(to, id, head.number + 1, &head.details, &head.content, Change::Deleted, said)
         })
     }
 
@@ -227,28 +236,32 @@ impl Store {
         over: &Condition,
     ) -> Result<Revision, StoreError> {
         self.database.write(|to| {
-            let head = head(to, id, over)?;
+            let head = self.head(to, id, Act::Change, over)?;
             let as_it_was = revision(to, id, number)?;
+            self.may_put_into(&as_it_was.details.folder)?;
             is_free(to, &as_it_was.details, id)?;
             let (details, content) = (&as_it_was.details, &as_it_was.content);
-            add(to, id, head.number + 1, details, content, Change::Restored, said)
+            self.add(to, id, head.number + 1, details, content, Change::Restored, said)
         })
     }
 
     /// A program as it is.
     pub(crate) fn program(&self, id: &str) -> Result<Revision, StoreError> {
-        self.database.read(|from| head(from, id, &Condition::Any))
+        self.database.read(|from| self.head(from, id, Act::Read, &Condition::Any))
     }
 
     /// A program as it was.
     pub(crate) fn revision(&self, id: &str, number: i64) -> Result<Revision, StoreError> {
-        self.database.read(|from| revision(from, id, number))
+        self.database.read(|from| {
+            self.may_with(from, id, Act::Read)?;
+            revision(from, id, number)
+        })
     }
 
     /// Revisions of a program, the newest first: those before a number, so many at most.
     pub(crate) fn revisions(&self, id: &str, before: i64, most: u32) -> Result<Vec<Revision>, StoreError> {
         self.database.read(|from| {
-            head(from, id, &Condition::Any)?;
+            self.may_with(from, id, Act::Read)?;
             let sql =
                 format!("{REVISION} WHERE r.program = $1 AND r.number < $2 ORDER BY r.number DESC LIMIT $3");
             from.read(&sql, values![id, before, most], read)
@@ -274,7 +287,9 @@ impl Store {
                         OR EXISTS (SELECT 1 FROM program_tag t WHERE t.tag = $8 AND t.program = p.id))
                    AND (CAST($9 AS TEXT) IS NULL
                         OR (p.folder, p.name, p.id) > (SELECT folder, name, id FROM program WHERE id = $9))
-                 ORDER BY p.folder, p.name, p.id LIMIT $10"
+                   AND (CAST($11 AS TEXT) IS NULL OR {})
+                 ORDER BY p.folder, p.name, p.id LIMIT $10",
+                holds_in("p.folder", "$11", "$12")
             );
             let values = values![
                 wanted.deleted,
@@ -286,11 +301,71 @@ impl Store {
                 &wanted.machine,
                 &wanted.tag,
                 &wanted.after,
-                wanted.most
+                wanted.most,
+                self.reader(),
+                Role::of(wanted.act).rank()
             ];
             from.read(&sql, values, read)
         })
     }
+}
+
+impl Store {
+    /// The user may do something with a program.
+    pub(super) fn may_with(&self, from: &dyn Session, program: &str, act: Act) -> Result<(), StoreError> {
+        let mut row = from.row("SELECT folder FROM program WHERE id = $1", values![program])?;
+        self.may(act, &row.text(0)?)
+    }
+
+    /// The user may do something with a program.
+    pub(crate) fn allows(&self, act: Act, program: &str) -> Result<(), StoreError> {
+        self.database.read(|from| self.may_with(from, program, act))
+    }
+
+    /// The program as it is, if the user may do this with it, and a writer's condition holds. Rights come first: the
+    /// condition would say that the program is there.
+    fn head(
+        &self,
+        from: &dyn Session,
+        program: &str,
+        act: Act,
+        over: &Condition,
+    ) -> Result<Revision, StoreError> {
+        let mut row = from.row("SELECT head, folder FROM program WHERE id = $1", values![program])?;
+        let number = row.int(0)?;
+        self.may(act, &row.text(1)?)?;
+        over.holds(&number.to_string())?;
+        revision(from, program, number)
+    }
+
+    /// Adds a revision, which the program is then.
+    #[expect(clippy::too_many_arguments, reason = "a revision has as many parts")]
+    fn add(
+        &self,
+        to: &dyn Session,
+        program: &str,
+        number: i64,
+        details: &Details,
+        content: &Content,
+        change: Change,
+        said: &Said,
+    ) -> Result<Revision, StoreError> {
+        let added = insert(to, program, number, details, content, change, said)?;
+        let place = [&*details.folder, &*details.name].into_iter().filter(|part| !part.is_empty());
+        let detail = format!("{} revision {number}", place.collect::<Vec<_>>().join("/"));
+        self.note(to, &format!("program.{}", change.name()), program, &detail)?;
+        Ok(added)
+    }
+}
+
+/// The condition that an account has a right in the folder of a column, with a rank at least. Folders are compared by
+/// their bytes; LIKE does not tell capital letters from small ones.
+pub(super) fn holds_in(folder: &str, account: &str, rank: &str) -> String {
+    format!(
+        "EXISTS (SELECT 1 FROM holding h WHERE h.account = {account} AND h.rank >= {rank}
+                 AND (h.folder = '' OR {folder} = h.folder
+                      OR substr({folder}, 1, length(h.folder) + 1) = h.folder || '/'))"
+    )
 }
 
 /// Reads revisions, with their contents.
@@ -321,13 +396,6 @@ fn revision(from: &dyn Session, program: &str, number: i64) -> Result<Revision, 
     read(from.row(&format!("{REVISION} WHERE r.program = $1 AND r.number = $2"), values![program, number])?)
 }
 
-/// The program as it is, if a writer's condition holds.
-fn head(from: &dyn Session, program: &str, over: &Condition) -> Result<Revision, StoreError> {
-    let number = from.row("SELECT head FROM program WHERE id = $1", values![program])?.int(0)?;
-    over.holds(&number.to_string())?;
-    revision(from, program, number)
-}
-
 /// No other program is there under this name.
 fn is_free(from: &dyn Session, details: &Details, program: &str) -> Result<(), StoreError> {
     let other = from.maybe_row(
@@ -338,7 +406,7 @@ fn is_free(from: &dyn Session, details: &Details, program: &str) -> Result<(), S
 }
 
 /// Adds a revision, which the program is then.
-fn add(
+fn insert(
     to: &dyn Session,
     program: &str,
     number: i64,

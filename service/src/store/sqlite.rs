@@ -83,7 +83,7 @@ pub(super) fn migrate(connection: &mut Connection) -> Result<(), StoreError> {
         return Ok(());
     }
     for step in left {
-        change.execute_batch(step)?;
+        change.execute_batch(&migrations::lines_for(step, "sqlite"))?;
     }
     change.pragma_update(None, "application_id", MARK)?;
     change.pragma_update(None, "user_version", STEPS.len() as i64)?;

@@ -10,6 +10,7 @@ use super::documents::now;
 use super::programs::Said;
 use super::session::{Row, Session, values};
 use super::{Store, StoreError};
+use crate::rights::Act;
 
 /// A state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
@@ -57,6 +58,15 @@ impl State {
             State::Obsolete => &[State::Draft],
         }
     }
+
+    /// The act of putting a translation into it.
+    const fn act(self) -> Act {
+        match self {
+            State::InReview => Act::Change,
+            State::Approved | State::Draft => Act::Review,
+            State::Released | State::Obsolete => Act::Release,
+        }
+    }
 }
 
 /// A step from a state to another one.
@@ -86,6 +96,7 @@ impl Store {
             let mut row =
                 store.row("SELECT state, program, target FROM translation WHERE id = $1", values![id])?;
             let (state, program, target) = (row.text(0)?, row.text(1)?, row.text(2)?);
+            self.may_with(store, &program, to.act())?;
             let may = State::named(&state).is_some_and(|state| state.next().contains(&to));
             if !may || !holds() {
                 return Err(StoreError::Changed);
@@ -98,16 +109,31 @@ impl Store {
                 )?;
                 for before in before {
                     let why = Said { message: format!("{id} is released"), ..said.clone() };
-                    add(store, &before, State::Obsolete, &why)?;
+                    self.enter(store, &before, State::Obsolete, &why)?;
                 }
             }
-            add(store, id, to, said)
+            self.enter(store, id, to, said)
         })
+    }
+
+    /// The user may put a translation into a state.
+    pub(crate) fn allows_step(&self, of: &str, to: State) -> Result<(), StoreError> {
+        self.database.read(|from| {
+            let mut row = from.row("SELECT program FROM translation WHERE id = $1", values![of])?;
+            self.may_with(from, &row.text(0)?, to.act())
+        })
+    }
+
+    fn enter(&self, to: &dyn Session, id: &str, state: State, said: &Said) -> Result<(), StoreError> {
+        add(to, id, state, said)?;
+        self.note(to, "translation.state", id, state.name())
     }
 
     /// The steps of a translation, in order.
     pub(crate) fn steps(&self, id: &str) -> Result<Vec<Step>, StoreError> {
         self.database.read(|from| {
+            let mut of = from.row("SELECT program FROM translation WHERE id = $1", values![id])?;
+            self.may_with(from, &of.text(0)?, Act::Read)?;
             let step = |mut row: Row| {
                 let state = row.text(1)?;
                 let unknown = || StoreError::Database(format!("no state is called {state:?}"));

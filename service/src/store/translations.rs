@@ -4,9 +4,11 @@ use utoipa::ToSchema;
 
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
+use super::programs::holds_in;
 use super::session::{Row, Session, values};
 use super::states::State;
 use super::{Store, StoreError};
+use crate::rights::{Act, Role};
 
 /// A translation.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -92,6 +94,7 @@ impl Store {
         [output, report, map]: [&[u8]; 3],
     ) -> Result<Translation, StoreError> {
         self.database.write(|to| {
+            self.may_with(to, &made.program, Act::Change)?;
             let same = format!("{TRANSLATION} WHERE key = $1 AND inputs = $2");
             if let Some(there) = to.maybe_row(&same, values![&made.key, &made.inputs])? {
                 return read(there);
@@ -118,6 +121,8 @@ impl Store {
                     made.state.name()
                 ],
             )?;
+            let detail = format!("program {} revision {}", made.program, made.revision);
+            self.note(to, "translation.create", &made.id, &detail)?;
             Ok(made)
         })
     }
@@ -131,7 +136,11 @@ impl Store {
 
     /// A translation.
     pub(crate) fn translation(&self, id: &str) -> Result<Translation, StoreError> {
-        self.database.read(|from| read(from.row(&format!("{TRANSLATION} WHERE id = $1"), values![id])?))
+        self.database.read(|from| {
+            let found = read(from.row(&format!("{TRANSLATION} WHERE id = $1"), values![id])?)?;
+            self.may_with(from, &found.program, Act::Read)?;
+            Ok(found)
+        })
     }
 
     /// Translations of a program, or all, those in a state, or all, in the order of their names; those after a name, so many
@@ -146,9 +155,14 @@ impl Store {
         self.database.read(|from| {
             let sql = format!(
                 "{TRANSLATION} WHERE (CAST($1 AS TEXT) IS NULL OR program = $1)
-                 AND (CAST($2 AS TEXT) IS NULL OR state = $2) AND id > $3 ORDER BY id LIMIT $4"
+                 AND (CAST($2 AS TEXT) IS NULL OR state = $2) AND id > $3
+                 AND (CAST($5 AS TEXT) IS NULL OR EXISTS (
+                     SELECT 1 FROM program p WHERE p.id = program AND {}))
+                 ORDER BY id LIMIT $4",
+                holds_in("p.folder", "$5", "$6")
             );
-            from.read(&sql, values![program, state.map(State::name), after, most], read)
+            let rank = Role::of(Act::Read).rank();
+            from.read(&sql, values![program, state.map(State::name), after, most, self.reader(), rank], read)
         })
     }
 
@@ -157,9 +171,11 @@ impl Store {
         self.database.read(|from| {
             let column = outcome.column();
             let sql = format!(
-                "SELECT c.id, c.sha256, c.bytes FROM translation t LEFT JOIN content c ON c.id = t.{column} WHERE t.id = $1"
+                "SELECT c.id, c.sha256, c.bytes, t.program FROM translation t
+                 LEFT JOIN content c ON c.id = t.{column} WHERE t.id = $1"
             );
             let mut row = from.row(&sql, values![id])?;
+            self.may_with(from, &row.text(3)?, Act::Read)?;
             let (content, sha256) = (row.maybe_int(0)?, row.maybe_text(1)?);
             let bytes = row.maybe_int(2)?.unwrap_or_default().unsigned_abs();
             Ok(content.zip(sha256).map(|(id, sha256)| Content { id, sha256, bytes }))

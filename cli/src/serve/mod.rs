@@ -1,0 +1,163 @@
+//! `ncc serve`: the service in this process.
+//!
+//! Not here: what it answers (`ncc_service`), and accounts (`users`).
+
+mod database;
+mod users;
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+use ncc_driver::problem::Problem;
+use ncc_service::{Listen, OpenError, Part, Service};
+
+pub use self::database::Database;
+use self::database::{unusable, user_of_the_computer};
+pub use self::users::User;
+use crate::files;
+
+/// `ncc serve`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  ncc serve                                     all services, the documents in ncc.sqlite
+  NCC_DATABASE_URL=postgres://ncc@localhost/ncc ncc serve
+                                                the documents in a PostgreSQL database
+  ncc serve --only persistence --listen 127.0.0.1:8275
+  ncc serve --only transpiler --persistence http://127.0.0.1:8275
+  ncc serve user add ana --role admin           the first account
+  ncc serve --listen 0.0.0.0:8274 --host ncc.shop.example --tls-cert cert.pem --tls-key key.pem
+
+It answers this computer alone (127.0.0.1), without a login, until there is an account (ncc serve user add). To answer other
+computers it needs an account, TLS, and the names by which they ask. Ctrl-C ends it: requests that are being answered end first.")]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct Serve {
+    /// Something else than to serve
+    #[command(subcommand)]
+    pub verb: Option<Verb>,
+    /// Address and port; port 0 is any that is free
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8274")]
+    pub listen: SocketAddr,
+    /// The database
+    #[command(flatten)]
+    pub database: Database,
+    /// A name by which others ask for this server, with or without a port; may be given several times
+    #[arg(long = "host", value_name = "NAME")]
+    pub hosts: Vec<String>,
+    /// The certificate and those that it rests on, PEM
+    #[arg(long, value_name = "FILE", requires = "tls_key")]
+    pub tls_cert: Option<PathBuf>,
+    /// The private key of the certificate, PEM; other users of this computer cannot read it
+    #[arg(long, value_name = "FILE", requires = "tls_cert")]
+    pub tls_key: Option<PathBuf>,
+    /// No TLS here: only behind a proxy on another host that ends TLS, in a network where nobody else listens
+    #[arg(long, conflicts_with = "tls_cert")]
+    pub plain_http: bool,
+    /// The name under which changes are kept while there is no account [default: that of the user of this computer]
+    #[arg(long, value_name = "NAME")]
+    pub author: Option<String>,
+    /// One of the services alone
+    #[arg(long, value_name = "SERVICE")]
+    pub only: Option<Only>,
+    /// The address of PERSISTENCE, for `--only transpiler` and `--only output`
+    #[arg(long, value_name = "URL")]
+    pub persistence: Option<String>,
+}
+
+/// Commands about the database of the service.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Accounts: as soon as there is one, a login is needed
+    #[command(subcommand)]
+    User(User),
+    /// Follows the chain of the audit: whether an entry was changed, put in or taken out
+    Audit(Database),
+}
+
+/// One of the services.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Only {
+    /// A program in, its document stored
+    Transpiler,
+    /// Documents stored and restored
+    Persistence,
+    /// Tables and lists from a stored document
+    Output,
+}
+
+/// The name under which changes are kept.
+fn author(args: &Serve) -> String {
+    let stated = args.author.clone().filter(|name| !name.is_empty());
+    stated.or_else(user_of_the_computer).unwrap_or_else(|| "unknown".to_owned())
+}
+
+/// The services that the command line asks for.
+fn part(args: &Serve) -> Result<Part, Problem> {
+    let elsewhere = || {
+        let needed = || Problem::usage("this service needs the address of PERSISTENCE", "--persistence URL");
+        let address = args.persistence.clone().ok_or_else(needed)?;
+        let plain = Problem::usage(format!("`{address}` is no address of a service"), "http://HOST:PORT");
+        if address.starts_with("http://") { Ok(address) } else { Err(plain) }
+    };
+    let part = match args.only {
+        None => Part::All { database: args.database.place()? },
+        Some(Only::Persistence) => Part::Persistence { database: args.database.place()? },
+        Some(Only::Transpiler) => return Ok(Part::Transpiler { persistence: elsewhere()? }),
+        Some(Only::Output) => return Ok(Part::Output { persistence: elsewhere()? }),
+    };
+    match args.persistence {
+        None => Ok(part),
+        Some(_) => Err(Problem::usage(
+            "--persistence with a process that has the store itself",
+            "leave it out, or say which service runs alone: --only transpiler, --only output",
+        )),
+    }
+}
+
+/// The address, and the names by which the server is asked.
+fn listen(args: &Serve) -> Listen {
+    let tls = args.tls_cert.clone().zip(args.tls_key.clone());
+    Listen {
+        address: args.listen,
+        hosts: args.hosts.clone(),
+        tls: tls.map(|(certificate, key)| [certificate, key]),
+        behind_proxy: args.plain_http,
+    }
+}
+
+/// Opens the service, and serves until the process is asked to stop; or does another command about its database.
+///
+/// # Errors
+/// Wrong usage, an address that is taken, a database that cannot be used, or the network.
+pub fn run(args: &Serve) -> Result<(), Problem> {
+    match &args.verb {
+        None => serve(args),
+        Some(Verb::User(user)) => users::run(user),
+        Some(Verb::Audit(database)) => users::audit(database),
+    }
+}
+
+fn serve(args: &Serve) -> Result<(), Problem> {
+    let service = Service::open(listen(args), &part(args)?, &author(args)).map_err(|error| match error {
+        OpenError::NoAccount => Problem::usage(
+            "other computers could ask, and there is no account",
+            "make one: ncc serve user add NAME --role admin; or answer this computer alone: --listen 127.0.0.1:8274",
+        ),
+        OpenError::NoTls => Problem::usage(
+            format!("{} is asked by other computers, without TLS", args.listen),
+            "--tls-cert FILE --tls-key FILE; or --plain-http behind a proxy that ends TLS",
+        ),
+        OpenError::Tls(reason) => Problem::usage(
+            format!("cannot use the certificate: {reason}"),
+            "both files are PEM, and the key is that of the first certificate",
+        ),
+        OpenError::Address(error) => Problem::usage(
+            format!("cannot listen on {}: {error}", args.listen),
+            "name another port, such as --listen 127.0.0.1:8275, or 0 for any that is free",
+        ),
+        OpenError::Database(reason) => unusable(&reason),
+    })?;
+    files::to_stdout(&mut |out| writeln!(out, "{}", service.address()))?;
+    service.serve().map_err(|error| Problem::file("serve", &args.listen.to_string(), &error))
+}
