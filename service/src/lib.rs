@@ -5,6 +5,7 @@
 //! | `/transpiler`, `/persistence`, `/output` | the services of the case study |
 //! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations |
 //! | `/api/v1/machines` | profiles of machines |
+//! | `/`, `/api/v1/engine` | the studio's page and its engines |
 //!
 //! One process has all of them ([`Part::All`]), or one of the case study's three, which finds PERSISTENCE over HTTP. No
 //! state is in a process but the store's connections. Programs are read from requests alone: no file of the server is
@@ -21,6 +22,7 @@ mod machines;
 mod observe;
 mod rights;
 mod store;
+mod studio;
 mod translating;
 mod work;
 mod workers;
@@ -42,6 +44,7 @@ use self::observe::Counters;
 pub use self::observe::{Form as LogForm, Level as LogLevel, log};
 pub use self::store::Place;
 use self::store::Store;
+use self::studio::Rooms;
 use self::work::Pool;
 
 /// Limits of the service.
@@ -61,6 +64,16 @@ pub struct Limits {
     pub body: Duration,
     /// Time limit of a client that reads nothing of its answer.
     pub reader: Duration,
+    /// Engines of pages at once: two for each page that is open.
+    pub rooms: usize,
+    /// The same of one user.
+    pub rooms_of_user: usize,
+    /// Bytes that one of them holds.
+    pub room_bytes: u64,
+    /// Bytes that all of them hold together.
+    pub rooms_bytes: u64,
+    /// Longest time for which one is kept without use.
+    pub room_age: Duration,
 }
 
 impl Default for Limits {
@@ -73,6 +86,11 @@ impl Default for Limits {
             head: Duration::from_secs(30),
             body: Duration::from_secs(120),
             reader: Duration::from_secs(30),
+            rooms: 64,
+            rooms_of_user: 16,
+            room_bytes: 600 << 20,
+            rooms_bytes: 1 << 30,
+            room_age: Duration::from_secs(1800),
         }
     }
 }
@@ -123,6 +141,7 @@ struct Shared {
     own: Option<Store>,
     pool: Pool,
     counters: Arc<Counters>,
+    rooms: Rooms,
     /// Bytes of a program and of a document at most.
     largest: u64,
     /// Author of all changes: without a login, there is one user.
@@ -240,7 +259,8 @@ impl Service {
                     .merge(case_study::persistence())
                     .merge(case_study::output())
                     .merge(machines::routes())
-                    .merge(api::routes()),
+                    .merge(api::routes())
+                    .merge(studio::routes()),
                 None,
             ),
             Part::Persistence { .. } => (case_study::persistence().merge(machines::routes()), None),
@@ -258,6 +278,7 @@ impl Service {
             shelf,
             own,
             pool,
+            rooms: Rooms::new(&limits),
             counters: Arc::new(Counters::new()),
             largest: limits.largest,
             author: author.to_owned(),

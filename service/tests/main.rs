@@ -8,6 +8,7 @@ mod limits;
 mod names;
 mod parts;
 mod programs;
+mod studio;
 mod study;
 mod tables;
 mod translations;

@@ -1,0 +1,23 @@
+//! Folders of programs: each that has one, with the number of its programs.
+
+use std::sync::Arc;
+
+use axum::extract::{RawQuery, State};
+use axum::response::Response;
+use serde_json::{Value, json};
+
+use crate::Shared;
+use crate::http::query::Query;
+use crate::http::{self, Problem};
+
+/// Lists folders, in their order. The top is the empty name.
+pub(super) async fn list(
+    State(shared): State<Arc<Shared>>,
+    RawQuery(query): RawQuery,
+) -> Result<Response, Problem> {
+    Query::of(query.as_deref()).end("")?;
+    let all = shared.store(|store| Ok(store.folders()?)).await?;
+    let folders: Vec<Value> =
+        all.into_iter().map(|(folder, programs)| json!({ "folder": folder, "programs": programs })).collect();
+    Ok(http::json(&json!({ "folders": folders })))
+}
