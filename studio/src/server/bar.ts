@@ -54,7 +54,7 @@ export class Bar {
     api.session.on((session) => {
       user.hidden = session.login === "none" || session.user === null;
       user.title = tell("loggedIn", { user: session.user ?? "" });
-      user.replaceChildren(icon("close"), el("span", {}, `${tell("logout")} ${session.user ?? ""}`));
+      user.replaceChildren(icon("leave"), el("span", {}, `${tell("logout")} ${session.user ?? ""}`));
     });
   }
 }
