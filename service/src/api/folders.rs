@@ -7,16 +7,19 @@ use axum::response::Response;
 use serde_json::{Value, json};
 
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
+use crate::rights::Act;
 
-/// Lists folders, in their order. The top is the empty name.
+/// Lists folders that the user may read, in their order. The top is the empty name.
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     RawQuery(query): RawQuery,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let all = shared.store(|store| Ok(store.folders()?)).await?;
+    let all = shared.store(&caller, |store| Ok(store.folders()?)).await?;
     let folders: Vec<Value> =
         all.into_iter().map(|(folder, programs)| json!({ "folder": folder, "programs": programs })).collect();
     Ok(http::json(&json!({ "folders": folders })))

@@ -13,6 +13,7 @@ use serde_json::Value;
 
 use super::rooms::Room;
 use crate::Shared;
+use crate::access::Caller;
 use crate::http::query::Query;
 use crate::http::{Problem, body};
 use crate::translating::callable;
@@ -26,12 +27,13 @@ const CELLS: u64 = 2048;
 /// Makes a room.
 pub(super) async fn open(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(room): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<StatusCode, Problem> {
     Query::of(query.as_deref()).end("")?;
     let is_first = shared.rooms.len() == 0;
-    shared.rooms.open(&shared.author, &room)?;
+    shared.rooms.open(caller.name(), &room)?;
     if is_first {
         tokio::spawn(sweep(Arc::clone(&shared)));
     }
@@ -48,17 +50,19 @@ async fn sweep(shared: Arc<Shared>) {
 /// Lets go of a room.
 pub(super) async fn close(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(room): Path<String>,
     RawQuery(query): RawQuery,
 ) -> Result<StatusCode, Problem> {
     Query::of(query.as_deref()).end("")?;
-    shared.rooms.close(&shared.author, &room);
+    shared.rooms.close(caller.name(), &room);
     Ok(StatusCode::NO_CONTENT)
 }
 
 /// Keeps a file.
 pub(super) async fn keep(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path((room, name)): Path<(String, String)>,
     RawQuery(query): RawQuery,
     bytes: Result<Bytes, BytesRejection>,
@@ -66,7 +70,7 @@ pub(super) async fn keep(
     Query::of(query.as_deref()).end("")?;
     body::name(&name)?;
     let bytes = body::whole(bytes, shared.largest)?;
-    let room = shared.rooms.of(&shared.author, &room)?;
+    let room = shared.rooms.of(caller.name(), &room)?;
     let mut inside = room.inside.lock().await;
     shared.rooms.reserve(&room, inside.others(&name) + bytes.len() as u64)?;
     inside.put(&name, bytes.to_vec());
@@ -77,11 +81,12 @@ pub(super) async fn keep(
 /// Puts the programs in the folder of a program beside it. Those that the room has already stay.
 pub(super) async fn called(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path((room, program)): Path<(String, String)>,
     RawQuery(query): RawQuery,
 ) -> Result<StatusCode, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let room = shared.rooms.of(&shared.author, &room)?;
+    let room = shared.rooms.of(caller.name(), &room)?;
     let mut inside = Arc::clone(&room.inside).lock_owned().await;
     let shared_too = Arc::clone(&shared);
     let put = move |store: &crate::store::Store| {
@@ -102,7 +107,7 @@ pub(super) async fn called(
         }
         Ok(())
     };
-    shared.store(put).await?;
+    shared.store(&caller, put).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -121,6 +126,7 @@ fn is_small(request: &str) -> Result<(), Problem> {
 /// Does a request within the limits of the compiler's work, for as long as its connection is there.
 pub(super) async fn run(
     State(shared): State<Arc<Shared>>,
+    caller: Caller,
     Path(room): Path<String>,
     RawQuery(query): RawQuery,
     request: Result<Bytes, BytesRejection>,
@@ -133,7 +139,7 @@ pub(super) async fn run(
     let request = String::from_utf8(request.to_vec())
         .map_err(|_| Problem::request("the request is no text in UTF-8"))?;
     is_small(&request)?;
-    let room: Arc<Room> = shared.rooms.of(&shared.author, &room)?;
+    let room: Arc<Room> = shared.rooms.of(caller.name(), &room)?;
     let mut inside = Arc::clone(&room.inside).lock_owned().await;
     let counts = Arc::clone(&shared);
     let work = move || {
