@@ -84,6 +84,8 @@ const desk = new Desk(await Store.open(), session, editor, folder);
 const server = SERVER && api ? new Server(api, desk, session, editor) : undefined;
 if (SERVER && server) {
   desk.remote = server;
+  // The server's limit.
+  session.mostCells = 2048;
   new Bar(server, () => void showRevisions(server));
   server.conflict.on((conflict) => conflict && showConflict(server, conflict, colours));
 }

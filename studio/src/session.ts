@@ -77,6 +77,8 @@ export class Session {
   readonly translation = new Signal<Translation | undefined>(undefined);
   /** Whether somebody looks at the translation. */
   readonly translates = new Signal(false);
+  /** Cells along the longer side of the part, at most. */
+  mostCells = 4096;
   dialects: Listed[] = [];
   machines: Listed[] = [];
 

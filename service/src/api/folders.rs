@@ -20,7 +20,8 @@ pub(super) async fn list(
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
     let all = shared.store(&caller, |store| Ok(store.folders()?)).await?;
+    let all = all.into_iter().filter(|(folder, _)| caller.may(Act::Read, folder).is_ok());
     let folders: Vec<Value> =
-        all.into_iter().map(|(folder, programs)| json!({ "folder": folder, "programs": programs })).collect();
+        all.map(|(folder, programs)| json!({ "folder": folder, "programs": programs })).collect();
     Ok(http::json(&json!({ "folders": folders })))
 }

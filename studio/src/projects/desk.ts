@@ -406,7 +406,8 @@ export class Desk {
 
   /** Another tab saved this project: its text is taken over, unless there is one here that is not saved. */
   private async savedElsewhere(id: string): Promise<void> {
-    if (id !== this.project?.id) return;
+    // An older revision is only looked at.
+    if (id !== this.project?.id || this.project.server?.latest) return;
     if (this.saved.get() === "unsaved") return this.saved.set("otherTab");
     const { asked } = this;
     const found = await this.store.get(id);

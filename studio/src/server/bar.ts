@@ -23,7 +23,7 @@ export class Bar {
     const own = this.message;
     const history = el("button", { id: "server-revisions", onclick: revisions }, tell("revisions"));
     const restore = el("button", { id: "server-restore", onclick: () => void server.restore(desk.project?.server?.revision ?? 0) }, tell("restore"));
-    const latest = el("button", { id: "server-latest", onclick: () => void server.openProgram(desk.project?.server?.program ?? "") }, tell("toLatest"));
+    const latest = el("button", { id: "server-latest", onclick: () => server.reopen() }, tell("toLatest"));
     this.strip.append(this.about, own, this.save, restore, latest, history);
     byId("editor-bar").before(this.strip, this.told);
     const draw = () => {

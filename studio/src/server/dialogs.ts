@@ -31,7 +31,7 @@ export async function showRevisions(server: Server): Promise<void> {
   const dialog = dialogOf("revisions-dialog", `${tell("revisions")}: ${project.name}`, list, more, wrong);
   const open = (revision: number) => {
     dialog.close();
-    void server.openProgram(place.program, revision).catch((error: unknown) => server.told.set({ text: wordsOf(error), bad: true }));
+    void server.tries(() => server.openProgram(place.program, { revision }));
   };
   const restore = (revision: number) => {
     dialog.close();

@@ -29,6 +29,13 @@ export interface Told {
   act?: [name: string, does: () => void];
 }
 
+/** How a program is opened. */
+interface Opening {
+  revision?: number;
+  fresh?: boolean;
+  asked?: number;
+}
+
 const NOTHING: Told = { text: "" };
 
 export class Server implements Remote {
@@ -68,7 +75,7 @@ export class Server implements Remote {
     try {
       const program = id.slice(own.length);
       if (!isDraft && (await this.programs.read(program)).change === "deleted") return false;
-      await this.openProgram(program, undefined, asked);
+      await this.openProgram(program, { asked });
     } catch (error) {
       if (!kept || !isDraft) return false;
       this.desk.show(...kept, asked);
@@ -77,14 +84,16 @@ export class Server implements Remote {
     return true;
   }
 
-  /** Opens a program, or one of its older revisions, which is only looked at. */
-  async openProgram(id: string, revision?: number, asked = this.desk.newlyAsked()): Promise<void> {
-    await this.desk.save();
+  /** Opens a program, or one of its older revisions, which is only looked at; `fresh` is without a text that was not saved. */
+  async openProgram(id: string, { revision, fresh = false, asked = this.desk.newlyAsked() }: Opening = {}): Promise<void> {
+    if (!fresh) await this.desk.save();
     const [latest] = await Promise.all([this.programs.read(id), this.ownMachines()]);
     this.profiles.clear();
     const isOld = revision !== undefined && revision !== latest.revision;
     const about = isOld ? await this.programs.revision(id, revision) : latest;
     const [made, text] = projectOf(about.name, about.name, await this.programs.text(id, about.revision));
+    // What was typed meanwhile.
+    if (!fresh) await this.desk.save();
     const kept = isOld ? undefined : await this.desk.store.get(this.key(id));
     const project: Project = {
       ...made,
@@ -94,7 +103,7 @@ export class Server implements Remote {
     };
     this.told.set(NOTHING);
     this.message = "";
-    if (kept?.[0].server?.draft) return this.showDraft(kept, project, text, asked);
+    if (kept?.[0].server?.draft && !fresh) return this.showDraft(kept, project, text, asked);
     if (!isOld) await this.desk.store.put(project, text);
     this.desk.show(project, text, asked);
   }
@@ -110,16 +119,21 @@ export class Server implements Remote {
     const now = project.server as OnServer;
     const base = (kept.server as OnServer).revision;
     this.desk.show({ ...kept, name: project.name, file: project.file, server: { ...now, revision: base, draft: true } }, own, asked);
-    this.told.set({ text: tell("draft", { revision: now.revision }), act: [tell("dropDraft"), () => void this.drop()] });
+    this.told.set({ text: tell("draft", { revision: now.revision }), act: [tell("dropDraft"), () => this.reopen(true)] });
   }
 
-  /** Lets go of what is not saved. */
-  async drop(): Promise<void> {
+  /** Opens the program as it is on the server; a failure is told. */
+  reopen(fresh = false): void {
     const own = this.desk.project?.server;
-    if (!own) return;
-    await this.desk.store.remove(this.key(own.program));
-    this.desk.saved.set("saved");
-    await this.openProgram(own.program);
+    if (own) void this.tries(() => this.openProgram(own.program, { fresh }));
+  }
+
+  async tries(work: () => Promise<unknown>): Promise<void> {
+    try {
+      await work();
+    } catch (error) {
+      this.told.set({ text: wordsOf(error), bad: true });
+    }
   }
 
   /** Saves the open program as a revision over the one that was read. */
@@ -139,8 +153,8 @@ export class Server implements Remote {
         now = await this.programs.change(own.program, now.revision, change as Record<string, string | null>);
       }
       const isNew = now.revision !== own.revision;
-      await this.keep(project, now, text);
       this.message = "";
+      await this.keep(project, now, text);
       this.told.set({ text: isNew ? tell("savedAs", { revision: now.revision }) : tell("noChange") });
     } catch (error) {
       this.desk.saved.set("unsaved");
@@ -212,7 +226,7 @@ export class Server implements Remote {
     const text = tell("movedOn", { author: now.author, revision: now.revision });
     // With a text that is not saved, saving it asks what to do.
     const isDraft = this.desk.saved.get() === "unsaved";
-    const take = () => void (isDraft ? this.save() : this.openProgram(own.program));
+    const take = () => (isDraft ? void this.save() : this.reopen());
     this.told.set({ text, act: [tell(isDraft ? "seeBoth" : "takeIt"), take] });
   }
 
@@ -239,12 +253,10 @@ export class Server implements Remote {
   /** Makes the open program again what an older revision has. */
   async restore(number: number): Promise<void> {
     const own = this.desk.project?.server;
-    if (!own) return;
+    if (!own || (this.desk.saved.get() === "unsaved" && !confirm(tell("restoreSure")))) return;
     try {
       const now = await this.programs.restore(own.program, number, own.latest ?? own.revision);
-      this.desk.saved.set("saved");
-      await this.desk.store.remove(this.key(own.program));
-      await this.openProgram(own.program);
+      await this.openProgram(own.program, { fresh: true });
       this.told.set({ text: tell("restored", { revision: now.revision }) });
     } catch (error) {
       const isLate = error instanceof Refused && error.status === 412;

@@ -60,7 +60,8 @@ export class Translations {
     const project = this.server.desk.project;
     const place = project?.server;
     if (!project || !place) return;
-    const { to, machineTo, fromOption, toOption } = project.choices;
+    const { to, machineTo, fromOption, toOption, pass } = project.choices;
+    if (pass.length > 0) return this.say(tell("noPasses", { pass: pass.join(", ") }), true);
     this.make.disabled = true;
     this.say(this.server.desk.saved.get() === "unsaved" ? tell("saveFirst") : "");
     try {
