@@ -93,7 +93,7 @@ export function showConflict(server: Server, conflict: Conflict, colours: AskCol
     pane(tell("theirs", { revision: theirs.revision }), text, other);
     both.append(el("p", { role: "status" }, tell("linesDiffer", { count: Math.max(own.length, other.length) })));
   };
-  const does = (name: string, act: () => void, primary = false) => el("button", { class: primary ? "primary" : "", onclick: act }, name);
+  const does = (name: string, act: () => void, primary = false) => el("button", { class: primary ? "primary" : "", autofocus: primary, onclick: act }, name);
   const end = (act: () => Promise<void>) => () => {
     dialog.close();
     void act();
