@@ -72,6 +72,8 @@ pub struct Limits {
     pub room_bytes: u64,
     /// Bytes that all of them hold together.
     pub rooms_bytes: u64,
+    /// Moves of a program at most, where a page asks for its path.
+    pub moves: usize,
     /// Longest time for which one is kept without use.
     pub room_age: Duration,
 }
@@ -90,6 +92,8 @@ impl Default for Limits {
             rooms_of_user: 16,
             room_bytes: 600 << 20,
             rooms_bytes: 1 << 30,
+            // With their modes, some 300 MB.
+            moves: 2_000_000,
             room_age: Duration::from_secs(1800),
         }
     }

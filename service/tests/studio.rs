@@ -176,6 +176,17 @@ fn rooms_have_their_number_and_their_bytes() {
     );
 }
 
+/// A loop of a few lines makes any number of moves, and its path as many places.
+#[test]
+fn a_path_has_its_length() {
+    let server = Server::limited(Limits { moves: 1000, ..Limits::default() });
+    server.room("a");
+    server.file("a", "long.nc", MOVES.as_bytes());
+    let request = r#"{ "verb": "path", "file": "long.nc", "from": "fanuc", "most_moves": 9000000 }"#;
+    let (code, told) = read(&server.run("a", request));
+    assert!(code != 0 && told.contains("it makes more than 1000 moves"), "{code}: {told}");
+}
+
 /// Work of a room has the limits of other work, ends with its client, and its room is free again.
 #[test]
 fn work_in_a_room_has_its_time() {

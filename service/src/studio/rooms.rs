@@ -83,6 +83,7 @@ pub(crate) struct Rooms {
     /// Bytes of one room, and of all.
     largest: [u64; 2],
     age: Duration,
+    moves: usize,
 }
 
 impl Rooms {
@@ -93,6 +94,7 @@ impl Rooms {
             most_of_user: limits.rooms_of_user,
             largest: [limits.room_bytes, limits.rooms_bytes],
             age: limits.room_age,
+            moves: limits.moves,
         }
     }
 
@@ -179,6 +181,11 @@ impl Rooms {
         self.with(|all| all.len())
     }
 
+    /// Moves of a program at most, where its path is asked for.
+    pub(super) fn moves(&self) -> usize {
+        self.moves
+    }
+
     /// The longest time for which a room is kept without use.
     pub(super) fn age(&self) -> Duration {
         self.age
@@ -204,7 +211,7 @@ mod tests {
     use super::*;
 
     fn rooms(most: usize, most_of_user: usize, largest: [u64; 2]) -> Rooms {
-        Rooms { all: Mutex::default(), most, most_of_user, largest, age: Duration::from_secs(3600) }
+        Rooms { all: Mutex::default(), most, most_of_user, largest, age: Duration::from_secs(3600), moves: 9 }
     }
 
     #[test]

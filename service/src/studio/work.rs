@@ -111,16 +111,21 @@ pub(super) async fn called(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Whether a request keeps within the limits that a stranger could break.
-fn is_small(request: &str) -> Result<(), Problem> {
-    let request: Value = serde_json::from_str(request).unwrap_or_default();
-    match request["cells"].as_u64() {
-        Some(cells) if cells > CELLS => {
-            Err(Problem::request(format!("a part has {CELLS} cells along its longer side at most"))
-                .help("choose fewer cells in the set-up"))
-        }
-        _ => Ok(()),
+/// A request with the limits that a stranger could break.
+fn bounded(request: &str, moves: usize) -> Result<String, Problem> {
+    // The engine says what is wrong with one that is no JSON.
+    let Ok(mut bounded) = serde_json::from_str::<Value>(request) else { return Ok(request.to_owned()) };
+    if bounded["cells"].as_u64().is_some_and(|cells| cells > CELLS) {
+        return Err(Problem::request(format!("a part has {CELLS} cells along its longer side at most"))
+            .help("choose fewer cells in the set-up"));
     }
+    if matches!(bounded["verb"].as_str(), Some("path" | "simulate")) {
+        bounded["most_moves"] = moves.into();
+        if let Some(other) = bounded.get_mut("compare").filter(|other| other.is_object()) {
+            other["most_moves"] = moves.into();
+        }
+    }
+    Ok(bounded.to_string())
 }
 
 /// Does a request within the limits of the compiler's work, for as long as its connection is there.
@@ -138,7 +143,7 @@ pub(super) async fn run(
     }
     let request = String::from_utf8(request.to_vec())
         .map_err(|_| Problem::request("the request is no text in UTF-8"))?;
-    is_small(&request)?;
+    let request = bounded(&request, shared.rooms.moves())?;
     let room: Arc<Room> = shared.rooms.of(caller.name(), &room)?;
     let mut inside = Arc::clone(&room.inside).lock_owned().await;
     let counts = Arc::clone(&shared);
@@ -161,8 +166,21 @@ mod tests {
 
     #[test]
     fn a_part_has_its_cells() {
-        assert!(is_small(r#"{ "verb": "simulate", "cells": 2048 }"#).is_ok());
-        assert!(is_small(r#"{ "verb": "simulate", "cells": 2049 }"#).is_err());
-        assert!(is_small("{").is_ok(), "the engine says what is wrong with it");
+        assert!(bounded(r#"{ "verb": "simulate", "cells": 2048 }"#, 9).is_ok());
+        assert!(bounded(r#"{ "verb": "simulate", "cells": 2049 }"#, 9).is_err());
+        assert_eq!(bounded("{", 9).expect("the engine says what is wrong with it"), "{");
+    }
+
+    #[test]
+    fn a_path_has_its_moves() {
+        let most = |request: &str| {
+            let bounded: Value =
+                serde_json::from_str(&bounded(request, 9).expect("a request")).expect("JSON");
+            [bounded["most_moves"].as_u64(), bounded["compare"]["most_moves"].as_u64()]
+        };
+        let own = Some(9);
+        assert_eq!(most(r#"{ "verb": "path", "most_moves": 9000000 }"#), [own, None]);
+        assert_eq!(most(r#"{ "verb": "simulate", "compare": { "file": "a" } }"#), [own, own]);
+        assert_eq!(most(r#"{ "verb": "check" }"#), [None, None]);
     }
 }
