@@ -1,5 +1,6 @@
 // Bundles the page into a folder: `node bundle.mjs FOLDER [WASM]`. With the engine's WebAssembly the folder is a whole
-// static page, kept by a service worker; without, it is what the binary serves and what is committed.
+// static page, kept by a service worker; without, it is what the binary serves and what is committed. Programs on a server are
+// the binary's alone: the static page has nothing of them.
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -24,6 +25,7 @@ const common = {
   target: ["es2022"],
   charset: "utf8",
   legalComments: "eof",
+  define: { SERVER: String(!wasm) },
   loader: { ".nc": "text", ".ngc": "text", ".mpf": "text", ".gcode": "text" },
   outdir: folder,
   logLevel: "warning",
@@ -41,7 +43,7 @@ if (wasm) {
   const files = readdirSync(folder).sort();
   const hash = createHash("sha256");
   for (const file of files) hash.update(file).update(readFileSync(join(folder, file)));
-  const define = { FILES: JSON.stringify([".", ...files]), VERSION: JSON.stringify(hash.digest("hex").slice(0, 16)) };
+  const define = { ...common.define, FILES: JSON.stringify([".", ...files]), VERSION: JSON.stringify(hash.digest("hex").slice(0, 16)) };
   await build({ ...common, entryPoints: { sw: "src/offline/sw.ts" }, format: "iife", define });
 } else {
   // Git keeps the text as it is on every system.

@@ -1,9 +1,9 @@
 // Pictures of the studio, each of a program of the corpus: `node make.mjs FOLDER`, with NCC naming the binary.
 
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { crc32, deflateSync } from "node:zlib";
-import { studio } from "../../studio/tests/binary.mjs";
+import { service, studio } from "../../studio/tests/binary.mjs";
 import { begin, open, ready } from "../../studio/tests/browser.mjs";
 
 const folder = process.argv[2];
@@ -97,6 +97,27 @@ const PICTURES = [
     },
   },
   {
+    name: "studio-server",
+    program: "corpus/fanuc/bolt-circle-macro.nc",
+    stored: true,
+    size: { width: 1180, height: 640 },
+    act: async (page) => {
+      await page.click("#projects-open");
+      await page.locator("#server-list .take", { hasText: "bolt-circle" }).click();
+      await page.locator("#server-about").waitFor();
+      await ready(page);
+      await page.click("#charts-toggle");
+      await page.click("#tab-translate");
+      await page.selectOption("#to", "siemens");
+      await page.waitForTimeout(300);
+      await ready(page);
+      await page.click("#server-translate");
+      await page.click('[data-to="in-review"]');
+      await page.click('[data-to="approved"]');
+      await page.locator('[data-to="released"]').waitFor();
+    },
+  },
+  {
     name: "studio-phone",
     program: "corpus/fanuc/pocket-spiral.nc",
     size: { width: 390, height: 780 },
@@ -108,8 +129,12 @@ const PICTURES = [
 ];
 
 const world = await begin();
-for (const { name, program, size, act } of PICTURES) {
-  const server = await studio(program);
+for (const { name, program, stored, size, act } of PICTURES) {
+  const server = await (stored ? service() : studio(program));
+  if (stored) {
+    const where = "/api/v1/programs?folder=flanges&name=bolt-circle.nc&dialect=fanuc&message=from+the+floor";
+    await server.ask("POST", where, readFileSync(program, "utf8"), { "content-type": "text/plain" });
+  }
   const { page, context } = await open(world, { address: server.address, ...size });
   await act(page);
   // Until nothing moves any more.

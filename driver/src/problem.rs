@@ -127,6 +127,8 @@ pub enum BrokenOff {
     LongMap,
     /// The output is longer than so many bytes, which are the host's limit.
     LongOutput(u64),
+    /// The program makes more than so many moves, which are the host's limit.
+    LongPath(usize),
 }
 
 impl fmt::Display for BrokenOff {
@@ -180,6 +182,9 @@ impl Problem {
             (Some(BrokenOff::LongMap), _) => problem("long-map").headline(),
             (Some(BrokenOff::LongOutput(most)), _) => {
                 problem("long-output").text("most", most.to_string()).headline()
+            }
+            (Some(BrokenOff::LongPath(most)), _) => {
+                problem("long-path").text("most", most.to_string()).headline()
             }
             (None, io::ErrorKind::NotFound) => problem("not-found").headline(),
             (None, io::ErrorKind::PermissionDenied) => problem("denied").headline(),

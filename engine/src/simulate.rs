@@ -72,7 +72,7 @@ fn execute(one: &One, files: &Files, messages: &mut Buffer) -> Result<Option<Exe
     let profile = machine_of(one, files)?;
     let Side { mut source, job } = side(one, files, messages)?;
     let (plan, unstated) = plan(&job, profile.as_deref(), Model::default());
-    let mut recorder = Watched::new(&plan);
+    let mut recorder = Watched::new(&plan).at_most(one.most_moves);
     let course = drive(&plan, &mut source, &mut recorder, &mut Unwatched).map_err(cannot)?;
     let shown = source.shown.clone();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };

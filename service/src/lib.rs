@@ -5,6 +5,7 @@
 //! | `/transpiler`, `/persistence`, `/output` | the services of the case study |
 //! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations |
 //! | `/api/v1/machines` | profiles of machines |
+//! | `/`, `/api/v1/engine` | the studio's page and its engines |
 //!
 //! One process has all of them ([`Part::All`]), or one of the case study's three, which finds PERSISTENCE over HTTP. No
 //! state is in a process but the store's connections. Programs are read from requests alone: no file of the server is
@@ -23,6 +24,7 @@ mod observe;
 mod rights;
 mod settings;
 mod store;
+mod studio;
 mod translating;
 mod work;
 mod workers;
@@ -49,6 +51,7 @@ pub use self::rights::{Role, Scope};
 pub use self::settings::{Cost, Listen, Rate};
 pub use self::store::Place;
 use self::store::Store;
+use self::studio::Rooms;
 use self::work::Pool;
 
 /// Limits of the service.
@@ -78,6 +81,18 @@ pub struct Limits {
     pub requests: Rate,
     /// Pieces of work of the compiler for an account.
     pub work_of_one: Rate,
+    /// Engines of pages at once: two for each page that is open.
+    pub rooms: usize,
+    /// The same of one user.
+    pub rooms_of_user: usize,
+    /// Bytes that one of them holds.
+    pub room_bytes: u64,
+    /// Bytes that all of them hold together.
+    pub rooms_bytes: u64,
+    /// Moves of a program at most, where a page asks for its path.
+    pub moves: usize,
+    /// Longest time for which one is kept without use.
+    pub room_age: Duration,
 }
 
 impl Default for Limits {
@@ -95,6 +110,13 @@ impl Default for Limits {
             attempts: Rate { burst: 20, every: Duration::from_secs(15) },
             requests: Rate { burst: 2000, every: Duration::from_millis(2) },
             work_of_one: Rate { burst: 500, every: Duration::from_millis(20) },
+            rooms: 64,
+            rooms_of_user: 16,
+            room_bytes: 600 << 20,
+            rooms_bytes: 1 << 30,
+            // With their modes, some 300 MB.
+            moves: 2_000_000,
+            room_age: Duration::from_secs(1800),
         }
     }
 }
@@ -149,6 +171,7 @@ struct Shared {
     own: Option<Store>,
     pool: Pool,
     counters: Arc<Counters>,
+    rooms: Rooms,
     /// Bytes of a program and of a document at most.
     largest: u64,
     /// Author of all changes: without a login, there is one user.
@@ -280,7 +303,8 @@ impl Service {
                     .merge(case_study::output())
                     .merge(machines::routes())
                     .merge(api::routes())
-                    .merge(access::routes()),
+                    .merge(access::routes())
+                    .merge(studio::routes()),
                 None,
             ),
             Part::Persistence { .. } => {
@@ -294,13 +318,18 @@ impl Service {
         let shelf = own.clone().map_or_else(there, Shelf::Here);
         let listener = TcpListener::bind(listen.address).map_err(OpenError::Address)?;
         listen.address = listener.local_addr().map_err(OpenError::Address)?;
-        let guard = Guard::new(&limits, tls.is_some() || listen.behind_proxy);
+        let guard = Guard::new(
+            &limits,
+            tls.is_some() || listen.behind_proxy,
+            openapi::open().chain(studio::open()).collect(),
+        );
         let threads = std::thread::available_parallelism().map_or(2, usize::from);
         let pool = Pool::new(threads, limits.waiting, limits.work);
         let shared = Arc::new(Shared {
             shelf,
             own,
             pool,
+            rooms: Rooms::new(&limits),
             counters: Arc::new(Counters::new()),
             largest: limits.largest,
             author: author.to_owned(),

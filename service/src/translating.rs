@@ -167,6 +167,18 @@ fn neighbours(store: &Store, of: &Revision) -> Result<Vec<Revision>, Problem> {
         .collect())
 }
 
+/// The same, as far as they are not too large to be looked through for called ones.
+pub(crate) fn callable(store: &Store, of: &Revision) -> Result<Vec<Revision>, Problem> {
+    let all = neighbours(store, of)?;
+    match all.iter().map(|own| own.content.bytes).sum::<u64>() > FOLDER {
+        false => Ok(all),
+        true => Err(Problem::not_made(
+            format!("it calls a program, and those of its folder have more than {FOLDER} bytes"),
+            None,
+        )),
+    }
+}
+
 /// Whether the programs that a translation calls are still the same.
 fn calls_the_same(store: &Store, of: &Revision, called: &BTreeMap<String, String>) -> Result<bool, Problem> {
     if called.is_empty() {
@@ -325,15 +337,8 @@ fn with_folder(
     of: &Revision,
     engine: &mut Engine,
 ) -> Result<BTreeMap<String, String>, Problem> {
-    let all = neighbours(store, of)?;
-    if all.iter().map(|own| own.content.bytes).sum::<u64>() > FOLDER {
-        return Err(Problem::not_made(
-            format!("it calls a program, and those of its folder have more than {FOLDER} bytes"),
-            None,
-        ));
-    }
     let mut folder = BTreeMap::new();
-    for own in all {
+    for own in callable(store, of)? {
         engine.put(&own.details.name, store.whole(&own.content)?);
         folder.insert(own.details.name, own.content.sha256);
     }

@@ -9,6 +9,7 @@ mod limits;
 mod names;
 mod parts;
 mod programs;
+mod studio;
 mod study;
 mod tables;
 mod translations;

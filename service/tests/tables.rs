@@ -132,8 +132,12 @@ const ROWS: &[Row] = &[
     row("POST", "/api/v1/machines/romi", Json(TABLE_10), 405, "problem:method"),
     row("DELETE", "/api/v1/machines/romi", Nothing, 204, ""),
     row("DELETE", "/api/v1/machines/romi", Nothing, 404, "problem:absent"),
+    // The studio's page.
+    row("GET", "/", Nothing, 200, "content=\"serve\""),
+    row("POST", "/", Program, 405, "problem:method"),
+    row("GET", "/studio.js", Nothing, 200, ""),
     // No such address.
-    row("GET", "/", Nothing, 404, "no such address"),
+    row("GET", "/index.html", Nothing, 404, "no such address"),
     row("GET", "/persistence/", Nothing, 404, "no such address"),
     row("GET", "/persistence/a/b", Nothing, 404, "no such address"),
     row("GET", "/output", Nothing, 404, "no such address"),

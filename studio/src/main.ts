@@ -5,13 +5,21 @@ import { Editing } from "./editor/editing";
 import { Outline } from "./editor/outline";
 import { ProblemList } from "./editor/problems";
 import type { Colours } from "./engine/documents";
-import { TooOld, loopbackToken, openEngines } from "./engine/host";
+import { TooOld, hostName, loopbackToken, openEngines } from "./engine/host";
 import { MachinePane } from "./machine/pane";
 import { Desk, download } from "./projects/desk";
 import { ProjectsDialog, wireDrop } from "./projects/dialog";
 import { EXAMPLES, type Example } from "./projects/examples";
 import { Folder } from "./projects/folder";
 import { Store, stored } from "./projects/store";
+import { Api } from "./server/api";
+import { Bar } from "./server/bar";
+import { showConflict, showRevisions } from "./server/dialogs";
+import { ServerList } from "./server/list";
+import { enter } from "./server/login";
+import { Room } from "./server/room";
+import { Server } from "./server/server";
+import { Translations } from "./server/translations";
 import { Session } from "./session";
 import { SetupPane } from "./setup/pane";
 import { Charts } from "./time/charts";
@@ -25,7 +33,8 @@ import { Panes, fillWords, showTheme, wireLanguage, wireSplit, wireTheme, wireTo
 import { chooseLanguage, say } from "./ui/texts";
 
 // The compiler is on its way while the page is built; a failure is told where it is waited for.
-const coming = openEngines();
+const api = SERVER && hostName() === "serve" ? new Api(enter) : undefined;
+const coming = openEngines(SERVER && api ? (room) => new Room(api, room) : undefined);
 coming.catch(() => undefined);
 
 const language = chooseLanguage(stored("ncc-language"));
@@ -72,6 +81,14 @@ const editor = new Editor(byId("editor"), {
 const token = loopbackToken();
 const folder = token === undefined ? undefined : new Folder(token);
 const desk = new Desk(await Store.open(), session, editor, folder);
+const server = SERVER && api ? new Server(api, desk, session, editor) : undefined;
+if (SERVER && server) {
+  desk.remote = server;
+  // The server's limit.
+  session.mostCells = 2048;
+  new Bar(server, () => void showRevisions(server));
+  server.conflict.on((conflict) => conflict && showConflict(server, conflict, colours));
+}
 const editing = new Editing(session, editor, desk);
 const problems = new ProblemList(({ place: { line, column }, time }) => {
   editor.goTo(line, column);
@@ -109,6 +126,7 @@ function picture(): void {
 }
 
 const translate = new TranslatePane(session, desk, editor);
+if (SERVER && server) new Translations(server);
 new SetupPane(session, desk);
 const lists = new ChoiceLists(session, desk);
 const panes = new Panes((tab, pane) => {
@@ -120,7 +138,7 @@ const panes = new Panes((tab, pane) => {
   if (pane === "time") charts.draw();
   machine?.draw();
 });
-const dialog = new ProjectsDialog(desk, language);
+const dialog = new ProjectsDialog(desk, language, SERVER && server ? new ServerList(server) : undefined);
 
 byId("projects-open").addEventListener("click", () => void dialog.open());
 byId("cancel").addEventListener("click", () => session.cancel());
@@ -134,7 +152,7 @@ wireToggle("charts-toggle", (on) => {
   charts.draw();
 });
 byId("block-modes").addEventListener("click", () => editor.showBlock());
-wireDrop(desk);
+wireDrop((files) => void dialog.drop(files));
 wireKeys({ desk, player, editor, projects: () => void dialog.open(), toLine: (line) => machine?.runTo(line) });
 wireTheme(() => {
   machine?.restyle();
@@ -190,6 +208,8 @@ await desk.begin().catch(() => desk.example(EXAMPLES[0] as Example));
 try {
   const engines = await coming;
   await session.start(engines, () => editor.text);
+  // Without them the machines that come with ncc can be chosen.
+  await server?.listMachines().catch(() => undefined);
   lists.fill();
   editor.recolour();
 } catch (error) {
@@ -197,6 +217,6 @@ try {
   session.state.set("failed");
   session.checked.set({ problems: [], notChecked: [], told: `${say(error instanceof TooOld ? "tooOld" : "noEngine")}\n${String(error)}` });
 }
-if ("serviceWorker" in navigator && token === undefined) {
+if ("serviceWorker" in navigator && hostName() === "worker") {
   void navigator.serviceWorker.register("sw.js").catch(() => undefined);
 }

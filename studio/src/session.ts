@@ -64,6 +64,8 @@ export class Session {
   /** What the program's `ncc.toml` states, and what the compiler says where that has faults. */
   readonly stated = new Signal<Stated | undefined>(undefined);
   statedTold = "";
+  /** Puts profiles of machines that the compiler does not have itself. */
+  putMachines: (engine: Engine, choices: Choices) => Promise<void> = () => Promise.resolve();
   /** Gives a file that lies beside the program. */
   beside: (name: string) => Promise<Uint8Array | undefined> = () => Promise.resolve(undefined);
   readonly path = new Signal<Path | undefined>(undefined);
@@ -75,6 +77,8 @@ export class Session {
   readonly translation = new Signal<Translation | undefined>(undefined);
   /** Whether somebody looks at the translation. */
   readonly translates = new Signal(false);
+  /** Cells along the longer side of the part, at most. */
+  mostCells = 4096;
   dialects: Listed[] = [];
   machines: Listed[] = [];
 
@@ -89,6 +93,8 @@ export class Session {
   private seeking = false;
   /** The reading that `stated` tells of, or will: what a newer one overtakes tells nothing. */
   private reading: { key: string; beside: Map<string, Uint8Array | undefined>; done: Promise<void> } | undefined;
+  /** The program that calls others of its folder. */
+  private calls = "";
   private wantedMoves = Infinity;
   private shownMoves = Infinity;
   /** Texts that the quick engine has, by their files. */
@@ -128,6 +134,10 @@ export class Session {
     this.statedTold = "";
     this.reading = undefined;
     this.stated.set(undefined);
+    this.calls = "";
+    // A program of another folder is no program that this one calls.
+    [this.engines?.quick, this.engines?.heavy].forEach((one) => one?.clear?.());
+    this.coloured.clear();
     this.change();
   }
 
@@ -166,13 +176,18 @@ export class Session {
     const [project, quick] = [this.project.get(), this.engines?.quick];
     if (!project || !quick) return undefined;
     quick.put(project.file, bytesOf(project, this.text()));
+    await this.putMachines(quick, project.choices);
     return quick.run({ verb, ...this.request(project), ...more });
   }
 
   /** The same, with other files beside the text, which are empty again afterwards: of those that its `ncc.toml` names there is no
    * need. */
   async askAmong(files: [id: string, name: string, bytes: Uint8Array][], verb: string, more: Record<string, unknown>): Promise<Answer | undefined> {
-    const quick = this.engines?.quick;
+    const [quick, stored] = [this.engines?.quick, this.project.get()?.server];
+    if (stored && quick?.called) {
+      await quick.called(stored.program);
+      return this.ask(verb, more);
+    }
     const others = files.filter(([, name]) => !this.reading?.beside.has(name));
     for (const [, name, bytes] of others) quick?.put(name, bytes);
     try {
@@ -274,6 +289,8 @@ export class Session {
     try {
       heavy.put(project.file, bytesOf(project, this.text()));
       for (const [name, bytes] of Object.entries(project.bodies ?? {})) heavy.put(name, bytes);
+      await this.putMachines(heavy, project.choices);
+      if (project.server && this.calls === project.id) await heavy.called?.(project.server.program);
       await this.readStated(project);
       await this.steps(heavy, project, () => own === this.generation);
       if (own === this.generation) {
@@ -283,7 +300,7 @@ export class Session {
       }
     } catch (error) {
       if (error instanceof Cancelled || own !== this.generation) return;
-      this.checked.set({ ...NOTHING, told: String(error) });
+      this.checked.set({ ...NOTHING, told: error instanceof Error ? error.message : String(error) });
       this.state.set("failed");
     }
   }
@@ -355,8 +372,15 @@ export class Session {
       if (!current()) return;
       if (bytes) this.path.set(readPath(bytes, answer.bytes("modes")));
     }
-    const check = await heavy.run({ verb: "check", ...one, ...zero(project.choices) });
+    let check = await heavy.run({ verb: "check", ...one, ...zero(project.choices) });
     if (!current()) return;
+    if (project.server && heavy.called && this.calls !== project.id && lacksCalled(check)) {
+      this.calls = project.id;
+      // A folder that is too large, or gone, has nothing to call: the program says so.
+      await heavy.called(project.server.program).catch(() => undefined);
+      check = await heavy.run({ verb: "check", ...one, ...zero(project.choices) });
+      if (!current()) return;
+    }
     this.tellCheck(check);
     const began = performance.now();
     const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), ...zero(project.choices), cells: this.cells(project.choices) });
@@ -418,6 +442,11 @@ export class Session {
       this.seeking = false;
     }
   }
+}
+
+/** Whether a program calls one that is not at hand. */
+function lacksCalled(answer: Answer): boolean {
+  return answer.text("findings").includes("NC0811");
 }
 
 function isSame(one: Uint8Array | undefined, other: Uint8Array | undefined): boolean {

@@ -1,3 +1,6 @@
+/** Whether the page may be one of `ncc serve`; a static page never is. */
+declare const SERVER: boolean;
+
 // Programs that are bundled as texts.
 declare module "*.nc" {
   const text: string;

@@ -42,7 +42,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("studio/host", &["ncc-engine", "ncc-exec"]),
-    ("service", &["ncc-dialects", "ncc-driver", "ncc-engine", "ncc-exec", "ncc-machines"]),
+    ("service", &["ncc-dialects", "ncc-driver", "ncc-engine", "ncc-exec", "ncc-machines", "ncc-studio"]),
     (
         "engine",
         &[

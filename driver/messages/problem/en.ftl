@@ -4,6 +4,7 @@ problem-not-found = there is no such file or folder
 problem-denied = permission denied
 problem-folder = it is a folder
 problem-side-broken-off = its execution broke off; please report it with this program
+problem-long-path = it makes more than { $most } moves
 problem-long-output = the output would be longer than { $most } bytes
 problem-long-map = its map cannot have places above 4 GiB
 problem-no-store = cannot use the folder of temporary files, { $folder }: { $reason }

@@ -25,6 +25,7 @@ use serde_json::Map;
 
 use super::columns::{bytes, table};
 use super::path::{Path, Recorder};
+use crate::problem::BrokenOff;
 use crate::render::spelled;
 use crate::review::words::number;
 use crate::time::drive::{Plan, Said, Sink};
@@ -70,6 +71,8 @@ struct Run {
 #[allow(missing_debug_implementations)] // A plan has none.
 pub struct Watched<'t> {
     recorder: Recorder<'t>,
+    /// Moves at most.
+    most: usize,
     plan: &'t Plan<'t>,
     texts: Vec<String>,
     places: HashMap<String, u32>,
@@ -94,6 +97,7 @@ impl<'t> Watched<'t> {
     pub fn new(plan: &'t Plan<'t>) -> Watched<'t> {
         Watched {
             recorder: Recorder::new(&plan.tables, false),
+            most: usize::MAX,
             plan,
             texts: Vec::new(),
             places: HashMap::new(),
@@ -108,6 +112,12 @@ impl<'t> Watched<'t> {
             runs: Vec::new(),
             speed: 0.0,
         }
+    }
+
+    /// With so many moves at most: a loop of a few lines can make any number.
+    #[must_use]
+    pub fn at_most(self, most: Option<usize>) -> Watched<'t> {
+        Watched { most: most.unwrap_or(usize::MAX), ..self }
     }
 
     fn text(&mut self, text: Option<String>) -> u32 {
@@ -266,6 +276,9 @@ impl Sink for Watched<'_> {
 
     fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
         let before = self.recorder.moves();
+        if before >= self.most {
+            return Err(io::Error::other(BrokenOff::LongPath(self.most)));
+        }
         self.recorder.function(timed, said)?;
         self.runs(timed);
         if self.recorder.moves() > before {

@@ -153,6 +153,9 @@ pub struct Simulate {
     /// Cells along the longer side of the part, 16 to 8192.
     #[serde(default = "cells")]
     pub cells: usize,
+    /// As of [`One`].
+    #[serde(default)]
+    pub most_moves: Option<usize>,
     /// Another program, whose part of the same raw part, by the same tools, is held against this one: the document has it
     /// too, and `between`.
     #[serde(default)]
@@ -175,6 +178,7 @@ impl Simulate {
             units: self.units,
             assume_milling: self.assume_milling,
             zero: self.zero,
+            most_moves: self.most_moves,
             datum: None,
         }
     }

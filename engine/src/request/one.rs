@@ -33,6 +33,9 @@ pub struct One {
     /// mm. It counts with a machine, and goes before its profile.
     #[serde(default)]
     pub zero: Option<[f64; 3]>,
+    /// Moves that it makes at most, where it is executed for its path; without, any number.
+    #[serde(default)]
+    pub most_moves: Option<usize>,
     /// The number of that work offset, once it is known.
     #[serde(skip)]
     pub(crate) datum: Option<u32>,
@@ -53,6 +56,7 @@ pub(super) fn one(
         units: None,
         assume_milling: false,
         zero: None,
+        most_moves: None,
         datum: None,
     }
 }

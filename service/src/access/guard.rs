@@ -9,11 +9,12 @@
 //!
 //! Rights are read with each request, so that another process, or the command line, can take them away at once.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use axum::extract::{Request, State};
+use axum::extract::{MatchedPath, Request, State};
 use axum::http::Method;
 use axum::http::request::Parts;
 use axum::middleware::Next;
@@ -25,7 +26,6 @@ use super::passwords::Passwords;
 use super::secrets;
 use crate::http::Problem;
 use crate::http::connections::Peer;
-use crate::http::openapi;
 use crate::observe::RequestName;
 use crate::rights::{Via, Who};
 use crate::{Limits, Shared};
@@ -45,6 +45,8 @@ pub(crate) struct Guard {
     pub(super) is_secure: bool,
     requests: Buckets,
     work: Buckets,
+    /// Routes of pages, which hold nothing of a user.
+    open: HashSet<String>,
     /// Whether there are accounts. There are some for ever then: none is ever taken out.
     is_needed: AtomicBool,
     begun: Instant,
@@ -53,7 +55,8 @@ pub(crate) struct Guard {
 }
 
 impl Guard {
-    pub(crate) fn new(limits: &Limits, is_secure: bool) -> Guard {
+    /// `open` are the routes that need no login to be read.
+    pub(crate) fn new(limits: &Limits, is_secure: bool, open: HashSet<String>) -> Guard {
         Guard {
             passwords: Passwords::new(limits.password),
             attempts: Buckets::new(limits.attempts),
@@ -61,6 +64,7 @@ impl Guard {
             is_secure,
             requests: Buckets::new(limits.requests),
             work: Buckets::new(limits.work_of_one),
+            open,
             is_needed: AtomicBool::new(false),
             begun: Instant::now(),
             looked: AtomicU64::new(0),
@@ -120,9 +124,13 @@ pub(crate) async fn author(shared: &Arc<Shared>, name: &str) -> Result<Caller, P
 }
 
 /// Whether an address is open to everybody.
-fn is_open(method: &Method, path: &str) -> bool {
-    let reads = matches!(*method, Method::GET | Method::HEAD);
-    path == "/api/v1/session" && (reads || *method == Method::POST) || openapi::has(path) && reads
+fn is_open(shared: &Arc<Shared>, request: &Parts) -> bool {
+    let reads = matches!(request.method, Method::GET | Method::HEAD);
+    let route = request.extensions.get::<MatchedPath>().map_or("", MatchedPath::as_str);
+    match route {
+        "/api/v1/session" => reads || request.method == Method::POST,
+        _ => reads && shared.guard.open.contains(route),
+    }
 }
 
 /// The user of a request, if there is one.
@@ -170,7 +178,7 @@ async fn let_in(shared: &Arc<Shared>, request: &Parts) -> Result<Option<Caller>,
     let peer = request.extensions.get::<Peer>().copied();
     let caller = find(shared, request, peer).await?;
     counts(shared, caller.as_ref(), peer)?;
-    if is_open(method, request.uri.path()) {
+    if is_open(shared, request) {
         return Ok(caller);
     }
     let Some(caller) = caller else { return Err(Problem::login_needed()) };

@@ -3,6 +3,7 @@
 //! ```text
 //! POST   /api/v1/programs?folder=F&name=N       a new program; the body is its text
 //! GET    /api/v1/programs                       programs by folder, name, tag, dialect, machine
+//! GET    /api/v1/folders                        folders, each with the number of its programs
 //! GET    /api/v1/programs/ID                    what is known of one
 //! PATCH  /api/v1/programs/ID                    its folder, name, tags, dialect, machine
 //! DELETE /api/v1/programs/ID                    its revisions stay
@@ -17,6 +18,7 @@
 //! Every change makes a revision, so nothing is overwritten. The tag of a program is the number of its revision.
 
 mod document;
+mod folders;
 mod jobs;
 mod outputs;
 mod programs;
@@ -39,6 +41,7 @@ pub(crate) use self::programs::new_id;
 pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
     OpenApiRouter::new()
         .routes(routes!(programs::list, programs::create))
+        .routes(routes!(folders::list))
         .routes(routes!(programs::read, programs::change, programs::delete))
         .routes(routes!(texts::read, texts::change))
         .routes(routes!(revisions::list))

@@ -34,10 +34,10 @@ const PAGE: &str = "/api/v1/docs";
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; \
                       connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 
-/// Whether an address is one of the description or its page, which hold nothing of a user.
-pub(crate) fn has(path: &str) -> bool {
-    let below = path.strip_prefix(PAGE).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
-    path == DESCRIPTION || below
+/// Routes of the description and its page, which hold nothing of a user.
+pub(crate) fn open() -> impl Iterator<Item = String> {
+    let page = ["", "/", "/{*rest}"].map(|rest| format!("{PAGE}{rest}"));
+    page.into_iter().chain([DESCRIPTION.to_owned()])
 }
 
 /// The routes of some addresses, with the description of all of them and the page.

@@ -268,6 +268,15 @@ impl Store {
         })
     }
 
+    /// Folders with programs, each with their number.
+    pub(crate) fn folders(&self) -> Result<Vec<(String, i64)>, StoreError> {
+        self.database.read(|from| {
+            let sql =
+                "SELECT folder, COUNT(*) FROM program WHERE NOT is_deleted GROUP BY folder ORDER BY folder";
+            from.read(sql, values![], |mut row| Ok((row.text(0)?, row.int(1)?)))
+        })
+    }
+
     /// Programs in the order of their folders and names.
     pub(crate) fn programs(&self, wanted: &Wanted) -> Result<Vec<Revision>, StoreError> {
         // A pattern of LIKE has signs of its own.

@@ -21,10 +21,7 @@ pub(crate) struct Engines(Mutex<BTreeMap<String, Arc<Mutex<Engine>>>>);
 impl Engines {
     /// The engine of a room; none where there are too many.
     fn of(&self, room: &str) -> Result<Arc<Mutex<Engine>>, StatusCode> {
-        if room.is_empty()
-            || room.len() > 64
-            || !room.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')
-        {
+        if !is_room(room) {
             return Err(StatusCode::NOT_FOUND);
         }
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -33,6 +30,11 @@ impl Engines {
         }
         Ok(Arc::clone(all.entry(room.to_owned()).or_default()))
     }
+}
+
+/// Whether a text is the name of a room: 1 to 64 letters of ASCII, digits and `-`.
+pub fn is_room(name: &str) -> bool {
+    (1..=64).contains(&name.len()) && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')
 }
 
 /// Does something with an engine, on a thread of its own.
@@ -88,8 +90,8 @@ pub(crate) async fn run(
     .await
 }
 
-/// A line of JSON, then the outputs.
-fn answer(engine: &mut Engine, request: &str) -> Vec<u8> {
+/// Does a request. The answer is a line of JSON, then the outputs.
+pub fn answer(engine: &mut Engine, request: &str) -> Vec<u8> {
     let code = engine.run(request);
     let list: Vec<_> = engine.outputs().map(|(name, bytes)| (name, bytes.len())).collect();
     let mut all = serde_json::json!({ "code": code, "outputs": list }).to_string().into_bytes();

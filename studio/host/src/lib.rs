@@ -11,11 +11,11 @@
 //!
 //! Nobody else gets in: the server listens on this computer alone, each request but those for the page's own files has the
 //! token that was made at the start, and names this server as its host. No file outside the folder is read or written, and
-//! no link is followed. Not here: the page (`studio/src`), the engine (`ncc_engine`), opening a browser.
+//! no link is followed. The page and the form of an engine's answers are for `ncc serve` too. Not here: the page (`studio/src`), the engine (`ncc_engine`), opening a browser.
 
 mod engines;
 mod gate;
-mod page;
+pub mod page;
 mod programs;
 
 use std::io;
@@ -29,6 +29,7 @@ use axum::routing::{get, post, put};
 use axum::{Router, middleware};
 
 use self::engines::Engines;
+pub use self::engines::{answer, is_room};
 use self::gate::Gate;
 use self::programs::Programs;
 

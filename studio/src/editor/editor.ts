@@ -77,6 +77,7 @@ export class Editor {
   private readonly root: ShadowRoot;
   private line = 0;
   private now = 0;
+  private locked = false;
 
   constructor(
     parent: HTMLElement,
@@ -112,6 +113,7 @@ export class Editor {
 
   /** Takes another text over, as one step that can be undone; gives how many lines are others. */
   replace(text: string): number {
+    if (this.locked) return 0;
     const { doc } = this.view.state;
     const lines = text.split("\n");
     const changes: { from: number; to: number; insert: string }[] = [];
@@ -128,9 +130,10 @@ export class Editor {
     return changes.length;
   }
 
-  /** Another text, with a history of its own. */
-  open(text: string): void {
+  /** Another text, with a history of its own; of one that is `locked` nothing is changed. */
+  open(text: string, locked = false): void {
     this.now = 0;
+    this.locked = locked;
     this.view.setState(this.state(text));
     this.line = 1;
   }
@@ -269,7 +272,7 @@ export class Editor {
         },
       }),
       keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap, ...searchKeymap]),
-      EditorState.readOnly.of(readOnly),
+      EditorState.readOnly.of(readOnly || this.locked),
       EditorView.contentAttributes.of({
         "aria-label": label,
         tabindex: "0",

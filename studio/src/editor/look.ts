@@ -16,6 +16,7 @@ export const look = EditorView.theme({
   ".cm-foldPlaceholder": { backgroundColor: "var(--line)", border: "1px solid var(--edge)", color: "var(--dim)", padding: "0 5px" },
   ".cm-activeLineGutter": { backgroundColor: "var(--line)", color: "var(--ink)" },
   ".cm-activeLine": { backgroundColor: "var(--line)" },
+  ".cm-line.pair .c-comment": { color: "var(--ink)" },
   ".cm-line.pair": { backgroundColor: "var(--select)", boxShadow: "inset 3px 0 var(--accent)" },
   ".cm-line.now": { boxShadow: "inset 3px 0 var(--mark)", backgroundColor: "var(--mark-soft)" },
   "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground": {

@@ -3,7 +3,7 @@
 //     engine.put("part.nc", bytes)
 //     (await engine.run({ verb: "check", file: "part.nc" })).json("findings")
 //
-// Two hosts have it: `worker-host` (WebAssembly in a worker) and `loopback` (the binary that serves the page).
+// Hosts have it: `worker-host` (WebAssembly in a worker), `loopback` (the binary that serves the page), and on it rooms of `ncc serve`.
 // Not here: what the outputs mean.
 
 /** A request; the engine's `request` has its fields. */
@@ -50,4 +50,8 @@ export interface Engine {
   cancel(): void;
   /** How many requests run or wait. */
   readonly waiting: number;
+  /** Lets go of all files, where the host has programs that others may have changed. */
+  clear?(): void;
+  /** Puts what a stored program may call beside it: the programs of its folder, as they are now. */
+  called?(program: string): Promise<unknown>;
 }

@@ -4,7 +4,7 @@
 // where newer work takes its place.
 
 import type { Engine } from "./engine";
-import { Loopback } from "./loopback";
+import { Loopback, withToken } from "./loopback";
 import { WorkerHost } from "./worker-host";
 
 export interface Engines {
@@ -20,12 +20,13 @@ export class TooOld extends Error {}
 
 const WARM = "%\nO1\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG1 X1. F100.\nM30\n%\n";
 
-/** The engines, warm: browsers compile a function when it first runs. */
-export async function openEngines(): Promise<Engines> {
+/** The engines, warm: browsers compile a function when it first runs. `rooms` makes those of `ncc serve`. */
+export async function openEngines(rooms?: (room: string) => Engine): Promise<Engines> {
   const token = loopbackToken();
-  if (token !== undefined) {
+  const remote = rooms ?? (token === undefined ? undefined : (own: string) => new Loopback(withToken(token), `engine/${own}`));
+  if (remote) {
     const own = room();
-    return { quick: new Loopback(token, `${own}-quick`), heavy: new Loopback(token, `${own}-heavy`) };
+    return { quick: remote(`${own}-quick`), heavy: remote(`${own}-heavy`) };
   }
   if (!WebAssembly.validate(new Uint8Array(VECTOR))) throw new TooOld("WebAssembly SIMD");
   // Workers fetch and compile while the page has its own work, and hand the module on without it.
@@ -46,10 +47,14 @@ export async function openEngines(): Promise<Engines> {
   return { quick, heavy };
 }
 
+/** Who serves the page: `worker` (any web server), `loopback` (`ncc studio`) or `serve` (`ncc serve`). */
+export function hostName(): string {
+  return document.querySelector<HTMLMetaElement>('meta[name="ncc-host"]')?.content ?? "";
+}
+
 /** The token of the binary that serves the page, if one does. */
 export function loopbackToken(): string | undefined {
-  const host = document.querySelector<HTMLMetaElement>('meta[name="ncc-host"]')?.content;
-  return host === "loopback" ? (new URLSearchParams(location.hash.slice(1)).get("token") ?? "") : undefined;
+  return hostName() === "loopback" ? (new URLSearchParams(location.hash.slice(1)).get("token") ?? "") : undefined;
 }
 
 /** A name for this tab's engines; it outlives a reload, so that engines do not gather. */

@@ -2,9 +2,22 @@
 //
 //     {"code":0,"outputs":[["findings",812],["messages",0]]}
 //
-// The token that the page was opened with goes with each request, so that no other page can have them done.
+// Not here: what shows the server that a request comes from its page (`Ask`).
 
 import { Answer, Cancelled, type Engine, type Request } from "./engine";
+
+/** Sends a request of the page; fails where the server refuses it. */
+export type Ask = (method: string, path: string, body?: BodyInit, signal?: AbortSignal) => Promise<Response>;
+
+/** Requests with the token that the page was opened with, so that no other page can have them done. */
+export function withToken(token: string): Ask {
+  return async (method, path, body, signal) => {
+    const headers = { authorization: `Bearer ${token}` };
+    const answer = await fetch(path, { method, headers, ...(body !== undefined && { body }), ...(signal && { signal }) });
+    if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
+    return answer;
+  };
+}
 
 export class Loopback implements Engine {
   private breaker = new AbortController();
@@ -13,8 +26,9 @@ export class Loopback implements Engine {
   private count = 0;
 
   constructor(
-    private readonly token: string,
-    private readonly room: string,
+    private readonly asks: Ask,
+    /** The address of the room. */
+    protected readonly path: string,
   ) {}
 
   get waiting(): number {
@@ -22,20 +36,16 @@ export class Loopback implements Engine {
   }
 
   put(name: string, bytes: Uint8Array): void {
-    const path = `engine/${this.room}/files/${encodeURIComponent(name)}`;
-    this.chain = this.chain.then(() => this.ask("PUT", path, bytes.slice(), undefined)).catch(() => undefined);
+    void this.next(() => this.send("PUT", `files/${encodeURIComponent(name)}`, bytes.slice())).catch(() => undefined);
   }
 
   run(request: Request): Promise<Answer> {
     const { signal } = this.breaker;
-    const path = `engine/${this.room}/run`;
     this.count += 1;
-    const step = this.chain.then(async () => {
+    const over = this.next(async () => {
       if (signal.aborted) throw new Cancelled();
-      return read(await this.ask("POST", path, JSON.stringify(request), signal));
-    });
-    const over = step.finally(() => (this.count -= 1));
-    this.chain = over.catch(() => undefined);
+      return read(await this.send("POST", "run", JSON.stringify(request), signal));
+    }).finally(() => (this.count -= 1));
     return over.catch((error: unknown) => {
       throw signal.aborted ? new Cancelled() : error;
     });
@@ -46,15 +56,16 @@ export class Loopback implements Engine {
     this.breaker = new AbortController();
   }
 
-  private async ask(
-    method: string,
-    path: string,
-    body: BodyInit,
-    signal: AbortSignal | undefined,
-  ): Promise<Uint8Array> {
-    const headers = { authorization: `Bearer ${this.token}` };
-    const answer = await fetch(path, { method, headers, body, ...(signal && { signal }) });
-    if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
+  /** Does a step after those before it. */
+  protected next<T>(step: () => Promise<T>): Promise<T> {
+    const own = this.chain.then(step);
+    this.chain = own.catch(() => undefined);
+    return own;
+  }
+
+  /** Sends a request about the room. */
+  protected async send(method: string, part: string, body?: BodyInit, signal?: AbortSignal): Promise<Uint8Array> {
+    const answer = await this.asks(method, part ? `${this.path}/${part}` : this.path, body, signal);
     return new Uint8Array(await answer.arrayBuffer());
   }
 }

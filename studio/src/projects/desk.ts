@@ -7,7 +7,7 @@ import { Signal } from "../ui/signal";
 import { say, type TextName } from "../ui/texts";
 import { EXAMPLES, type Example } from "./examples";
 import type { Folder, List } from "./folder";
-import { bytesOf, noChoices, projectOf, type Project } from "./project";
+import { bytesOf, isBrowsers, noChoices, projectOf, type Project } from "./project";
 import type { Store } from "./store";
 import { ANSWERS, type Packed } from "./zip";
 
@@ -17,7 +17,21 @@ const QUIET = 600;
 /** The largest program that another one is taken to call, and so many of them together, bytes. */
 const [CALLED, TOGETHER] = [4 << 20, 64 << 20];
 
+/** Programs of a server; the desk asks where the open one, or one that is to be opened, is there. */
+export interface Remote {
+  /** Opens the program of an id, if it is one of the server. */
+  open(id: string, asked: number): Promise<boolean>;
+  /** Saves the open one. */
+  save(): Promise<void>;
+  /** Other programs of its folder. */
+  others(project: Project): Promise<[id: string, name: string][]>;
+  /** The name, the bytes and the dialect of one of them. */
+  file(id: string): Promise<[string, Uint8Array, string] | undefined>;
+}
+
 export class Desk {
+  /** The server, where the page is one of `ncc serve`. */
+  remote: Remote | undefined;
   /** The programs of the folder that the binary serves. */
   list: List | undefined;
   readonly saved = new Signal<TextName>("saved");
@@ -52,6 +66,11 @@ export class Desk {
     return this.session.project.get();
   }
 
+  /** Tells the open project now, and each that follows. */
+  onProject(tell: (project: Project | undefined) => void): void {
+    this.session.project.on(tell);
+  }
+
   /** The project that was open last, or the first program of the folder, or the first example. */
   async begin(): Promise<void> {
     const { asked } = this;
@@ -66,8 +85,9 @@ export class Desk {
       const name = names.find((one) => one === last) ?? names[0];
       if (name) return this.openProgram(name, asked);
     }
+    if (this.store.current && (await this.remote?.open(this.store.current, asked))) return;
     const current = this.store.current && (await this.store.get(this.store.current));
-    const [last] = current ? [] : await this.store.list();
+    const [last] = current ? [] : (await this.store.list()).filter(isBrowsers);
     const found = current || (last && (await this.store.get(last.id)));
     if (found) return this.show(...found, asked);
     if (asked === this.asked) await this.example(EXAMPLES[0] as Example, asked);
@@ -76,15 +96,17 @@ export class Desk {
   /** Other programs, by ids and names: of the folder that is served, or the other projects. */
   async otherPrograms(): Promise<[id: string, name: string][]> {
     const own = this.project;
+    if (own?.server && this.remote) return this.remote.others(own);
     if (own?.disk && this.list) {
       const names = this.list.programs.map((one) => one.name).filter((name) => name !== own.disk?.name);
       return names.map((name) => [`disk/${name}`, name]);
     }
-    return (await this.store.list()).filter((one) => one.id !== own?.id && !one.disk).map((one) => [one.id, one.name]);
+    return (await this.store.list()).filter((one) => one.id !== own?.id && isBrowsers(one)).map((one) => [one.id, one.name]);
   }
 
   /** The name, the bytes and the dialect of one of them. */
   async otherFile(id: string): Promise<[string, Uint8Array, string] | undefined> {
+    if (this.project?.server && this.remote) return this.remote.file(id);
     const name = id.startsWith("disk/") && this.project?.disk ? id.slice(5) : undefined;
     if (name !== undefined) {
       const read = await this.folder?.read(name);
@@ -96,6 +118,8 @@ export class Desk {
 
   /** Other programs with their bytes, as far as they are no large ones, and not too many: of several of one name the first. */
   async neighbours(): Promise<[id: string, name: string, bytes: Uint8Array][]> {
+    // The server puts the bytes into the engine itself.
+    if (this.project?.server) return (await this.otherPrograms()).map(([id, name]) => [id, name, new Uint8Array()]);
     const bytes = new Map(this.list?.programs.map((one) => [one.name, one.bytes]));
     const found: [string, string, Uint8Array][] = [];
     const taken = new Set([this.project?.file]);
@@ -110,8 +134,14 @@ export class Desk {
     return found;
   }
 
-  openNeighbour(id: string): Promise<void> {
+  async openNeighbour(id: string): Promise<void> {
+    if (this.project?.server && (await this.remote?.open(id, this.newlyAsked()))) return;
     return this.project?.disk && id.startsWith("disk/") ? this.openProgram(id.slice(5)) : this.open(id);
+  }
+
+  /** The user asks for a program: what was asked for before gives way to it. */
+  newlyAsked(): number {
+    return ++this.asked;
   }
 
   async open(id: string): Promise<void> {
@@ -156,7 +186,7 @@ export class Desk {
     const [project, text] = found;
     const now = Date.now();
     const name = await this.freeName(project.name);
-    const { disk: _, ...free } = project;
+    const { disk: _, server: __, ...free } = project;
     await this.store.put({ ...free, id: crypto.randomUUID?.() ?? `${now}`, name, created: now, changed: now }, text);
   }
 
@@ -191,12 +221,22 @@ export class Desk {
     this.timer = window.setTimeout(() => void this.save(), QUIET);
   }
 
-  /** Saves what is not saved. */
+  /** Saves for good what its user wants saved: on a server that is a revision. */
+  saveNow(): Promise<void> {
+    return this.project?.server && this.remote ? this.remote.save() : this.save();
+  }
+
+  /** Saves what is not saved; of a program of a server a draft, in the browser. */
   async save(): Promise<void> {
     clearTimeout(this.timer);
     const { project } = this;
     if (!project || this.saved.get() !== "unsaved") return;
     const { text } = this.editor;
+    if (project.server) {
+      project.server.draft = true;
+      project.changed = Date.now();
+      return this.store.put(project, text);
+    }
     this.saved.set("saving");
     project.changed = Date.now();
     if (project.disk && this.folder) {
@@ -211,17 +251,23 @@ export class Desk {
       }
     }
     await this.store.put(project, text);
-    this.others?.postMessage(project.id);
+    this.tellOthers(project.id);
     if (this.saved.get() === "saving") this.saved.set(this.store.keeps ? "saved" : "noStorage");
   }
 
   /** Choices were changed: they are part of the project. */
   async choose(change: (project: Project) => void, works = true): Promise<void> {
     if (!this.project) return;
+    const before = this.project.choices;
     const project = structuredClone(this.project);
     change(project);
     this.session.project.set(project);
     if (works) this.session.change();
+    if (project.server) {
+      // Dialect and machine are kept on the server, when its user saves.
+      if (project.server.latest) return;
+      if (before.from !== project.choices.from || before.machine !== project.choices.machine) this.changed();
+    }
     await this.store.put(project);
   }
 
@@ -256,6 +302,7 @@ export class Desk {
 
   private async keepSetUp(set: Partial<SetUp>, tools: Record<string, string>): Promise<string> {
     const project = this.project;
+    if (project?.server) return say("answersHere");
     const texts = Object.entries(tools).map(([number, text]) => `${number}=${text}`);
     const empty = [...Object.values(set), ...Object.values(tools)].every((own) => own.length === 0);
     if (!project || (empty && !this.session.stated.get())) return this.setUpTold.get();
@@ -291,7 +338,8 @@ export class Desk {
   /** Writes what was chosen, or parts of the set-up alone, and reads it again; tells what kept it. */
   private async write(set?: Partial<SetUp> & { tools?: string[] }, without?: readonly [SideName, string]): Promise<string> {
     const { project } = this;
-    if (!project) return "";
+    // A server keeps no project file: what was chosen goes with each translation.
+    if (!project || project.server) return "";
     if (project.disk && this.folder) this.list = await this.folder.list();
     const disk = this.list?.answers ? await this.folder?.read(ANSWERS) : undefined;
     const there = project.disk ? disk && new TextDecoder().decode(disk[0]) : project.answers;
@@ -314,7 +362,7 @@ export class Desk {
   /** Projects as they go into a zip: one, or all of the browser's. */
   async packed(id?: string): Promise<Packed[]> {
     await this.save();
-    const ids = id === undefined ? (await this.store.list()).filter((one) => !one.disk).map((one) => one.id) : [id];
+    const ids = id === undefined ? (await this.store.list()).filter(isBrowsers).map((one) => one.id) : [id];
     const found: Packed[] = [];
     for (const own of ids) {
       const [project] = (await this.store.get(own)) ?? [];
@@ -338,22 +386,28 @@ export class Desk {
     }
   }
 
+  /** A program was saved: other tabs take it over. */
+  tellOthers(id: string): void {
+    this.others?.postMessage(id);
+  }
+
   /** Shows a program, unless the user has asked for another meanwhile. */
-  private show(project: Project, text: string, asked: number): void {
+  show(project: Project, text: string, asked: number): void {
     if (asked !== this.asked) return;
     clearTimeout(this.timer);
     this.store.current = project.id;
-    this.saved.set(this.store.keeps ? "saved" : "noStorage");
+    this.saved.set(project.server ? (project.server.draft ? "unsaved" : "saved") : this.store.keeps ? "saved" : "noStorage");
     this.setUpTold.set("");
     // A project of an older page may lack choices of this one.
     this.session.project.set({ ...project, choices: { ...noChoices(), ...project.choices } });
-    this.editor.open(text);
+    this.editor.open(text, project.server?.latest !== undefined);
     this.session.reset();
   }
 
   /** Another tab saved this project: its text is taken over, unless there is one here that is not saved. */
   private async savedElsewhere(id: string): Promise<void> {
-    if (id !== this.project?.id) return;
+    // An older revision is only looked at.
+    if (id !== this.project?.id || this.project.server?.latest) return;
     if (this.saved.get() === "unsaved") return this.saved.set("otherTab");
     const { asked } = this;
     const found = await this.store.get(id);

@@ -4,11 +4,22 @@ import { byId, el, icon } from "../ui/dom";
 import { chooseName, say, type Language } from "../ui/texts";
 import { download, type Desk } from "./desk";
 import { EXAMPLES } from "./examples";
-import type { Project } from "./project";
-import { NoZip, isZip, unzipped, zipped } from "./zip";
+import { isBrowsers, type Project } from "./project";
+import { NoZip, isZip, unzipped, zipped, type Packed } from "./zip";
 
 /** What a new program begins with, in every word-address dialect. */
-const BEGINNING = "%\nO0001\nG21 G17 G90 G94 G40 G49 G80\n\nM30\n%\n";
+export const BEGINNING = "%\nO0001\nG21 G17 G90 G94 G40 G49 G80\n\nM30\n%\n";
+
+/** Programs of a server in the dialog. */
+export interface Section {
+  readonly element: HTMLElement;
+  /** The heading of what the browser keeps, and the action that takes a project of it. */
+  readonly words: { browser: string; take: string };
+  /** The dialog opens. */
+  show(close: () => void, toBrowser: (files: Packed[]) => void): void;
+  /** Files that shall be taken in; and the names of what is no zip of programs. */
+  offer(files: Packed[], wrong?: string[]): void;
+}
 
 export class ProjectsDialog {
   private readonly dialog = byId<HTMLDialogElement>("projects-dialog");
@@ -16,6 +27,7 @@ export class ProjectsDialog {
   constructor(
     private readonly desk: Desk,
     private readonly language: Language,
+    private readonly section?: Section,
   ) {
     this.dialog.addEventListener("click", (event) => {
       if (event.target === this.dialog) this.dialog.close();
@@ -24,15 +36,26 @@ export class ProjectsDialog {
 
   async open(): Promise<void> {
     // What was listed before is not what there is; a file that is taken there would be told in a list that goes.
-    if (!this.dialog.open) this.dialog.replaceChildren();
+    if (!this.dialog.open) {
+      this.dialog.replaceChildren();
+      this.section?.show(() => this.dialog.close(), (files) => void this.desk.unpack(files).then(() => this.dialog.close()));
+    }
     await this.fill();
     if (!this.dialog.open) this.dialog.showModal();
+  }
+
+  /** Opens the dialog with files that were dropped, where a server may take them in. */
+  async drop(files: FileList | null): Promise<void> {
+    if (!this.section) return void (await takeFiles(this.desk, files));
+    const taken = await packedOf(files);
+    if (!this.dialog.open) await this.open();
+    this.section.offer(...taken);
   }
 
   private async fill(): Promise<void> {
     const projects = await this.desk.store.list();
     const input = el("input", { type: "file", multiple: true, hidden: true, onchange: () => void this.take(input.files) });
-    const own = el("ul", { id: "projects-list" }, ...projects.filter((one) => !one.disk).map((project) => this.row(project)));
+    const own = el("ul", { id: "projects-list" }, ...projects.filter(isBrowsers).map((project) => this.row(project)));
     const examples = EXAMPLES.map((example) => {
       const take = () => void this.desk.example(example).then(() => this.dialog.close());
       const [sentence] = [example.sentence[this.language === "pt" ? 1 : 0]];
@@ -41,6 +64,7 @@ export class ProjectsDialog {
     const close = el("button", { "aria-label": say("close"), onclick: () => this.dialog.close() }, icon("close"));
     this.dialog.replaceChildren(
       el("header", {}, el("h2", { id: "projects-title" }, say("projects")), close),
+      ...(this.section ? [this.section.element, el("h3", {}, this.section.words.browser)] : []),
       this.newForm(el("button", { type: "button", onclick: () => input.click() }, say("import"))),
       input,
       ...this.onDisk(),
@@ -110,6 +134,7 @@ export class ProjectsDialog {
       act(say("duplicate"), () => again(this.desk.duplicate(id))),
       act(say("export"), save),
       act(say("exportZip"), () => void this.zip(id, name)),
+      ...(this.section ? [act(this.section.words.take, () => void this.desk.packed(id).then((files) => this.section?.offer(files)))] : []),
       act(say("remove"), remove),
     );
     return row;
@@ -126,8 +151,25 @@ export class ProjectsDialog {
   }
 }
 
+/** Files as they are taken in, of a zip those that it has; and the names of what is no zip of programs. */
+export async function packedOf(files: FileList | null): Promise<[Packed[], wrong: string[]]> {
+  const [found, wrong]: [Packed[], string[]] = [[], []];
+  for (const file of files ?? []) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    try {
+      const own = isZip(bytes) ? unzipped(bytes) : [{ name: file.name.replace(/\.\w+$/, ""), file: file.name, bytes }];
+      if (own.length === 0) wrong.push(file.name);
+      found.push(...own);
+    } catch (error) {
+      if (!(error instanceof NoZip)) throw error;
+      wrong.push(file.name);
+    }
+  }
+  return [found, wrong];
+}
+
 /** Files become projects, a zip those that it has; the last one is open. Gives the names of what is no zip of programs. */
-export async function takeFiles(desk: Desk, files: FileList | null): Promise<string[]> {
+async function takeFiles(desk: Desk, files: FileList | null): Promise<string[]> {
   const wrong: string[] = [];
   for (const file of files ?? []) {
     const bytes = new Uint8Array(await file.arrayBuffer());
@@ -148,7 +190,7 @@ export async function takeFiles(desk: Desk, files: FileList | null): Promise<str
 }
 
 /** Files that are dropped on the page. */
-export function wireDrop(desk: Desk): void {
+export function wireDrop(takes: (files: FileList | null) => void): void {
   const shade = byId("drop");
   let inside = 0;
   const files = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
@@ -166,6 +208,6 @@ export function wireDrop(desk: Desk): void {
     event.preventDefault();
     inside = 0;
     shade.hidden = true;
-    void takeFiles(desk, event.dataTransfer?.files ?? null);
+    takes(event.dataTransfer?.files ?? null);
   }, { capture: true });
 }

@@ -45,6 +45,30 @@ export interface Project {
   answers?: string;
   /** Where it is in the folder that the binary serves, and the tag of what was read. */
   disk?: { name: string; tag: string };
+  /** Where it is on the server. */
+  server?: OnServer;
+}
+
+/** A program of `ncc serve`, as far as the page has read it. */
+export interface OnServer {
+  program: string;
+  folder: string;
+  /** The revision that the text comes from. */
+  revision: number;
+  /** What is kept with it: empty where nothing is stated. */
+  dialect: string;
+  machine: string;
+  author: string;
+  made: string;
+  /** Whether text, dialect or machine differ from that revision. */
+  draft: boolean;
+  /** The latest revision, where this is an older one, which is only looked at. */
+  latest?: number;
+}
+
+/** Whether a project is in the browser alone. */
+export function isBrowsers(project: Project): boolean {
+  return !project.disk && !project.server;
 }
 
 export function noChoices(from = "auto"): Choices {

@@ -17,6 +17,8 @@ const [LARGEST, MOST] = [256 * 2 ** 20, 5000];
 
 /** A project in a zip. */
 export interface Packed {
+  /** Folders of a zip without `studio.json`, with `/` between them. */
+  folder?: string;
   name: string;
   file: string;
   bytes: Uint8Array;
@@ -51,6 +53,11 @@ export function zipped(projects: Packed[]): Uint8Array {
   return zipSync(files);
 }
 
+/** Files by their paths. What no path can have becomes another sign. */
+export function zippedFiles(files: Record<string, Uint8Array>): Uint8Array {
+  return zipSync(Object.fromEntries(Object.entries(files).map(([path, bytes]) => [path.split("/").map(part).join("/"), bytes])));
+}
+
 export function unzipped(bytes: Uint8Array): Packed[] {
   let [size, count] = [0, 0];
   let files: Record<string, Uint8Array>;
@@ -75,7 +82,7 @@ export function unzipped(bytes: Uint8Array): Packed[] {
     const folder = parts.join("/");
     folders.set(folder, (folders.get(folder) ?? new Map()).set(name, own));
   }
-  return [...folders.values()].flatMap(projectsOf);
+  return [...folders].flatMap(([folder, own]) => projectsOf(own).map((one) => ({ ...one, folder })));
 }
 
 function projectsOf(files: Map<string, Uint8Array>): Packed[] {

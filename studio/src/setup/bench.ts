@@ -57,11 +57,11 @@ export class Bench {
     return el("section", { id: "zero" }, el("h2", {}, say("zeroOnMachine")), el("div", { class: "held" }, ...fields, "mm"), el("p", { class: "dim" }, say("zeroMeans")));
   }
 
-  /** How fine the part is cut. */
-  resolution(): HTMLElement {
+  /** How fine the part is cut: at most so many cells along its longer side. */
+  resolution(most: number): HTMLElement {
     const chosen = this.project?.choices.cells ?? 0;
     const list = el("select", { id: "cells", "aria-label": say("resolution") });
-    list.append(...CELLS.map((cells) => el("option", { value: cells, selected: cells === chosen }, cells ? say("cellsAlong", { cells }) : say("cellsAutomatic"))));
+    list.append(...CELLS.filter((cells) => cells <= most).map((cells) => el("option", { value: cells, selected: cells === chosen }, cells ? say("cellsAlong", { cells }) : say("cellsAutomatic"))));
     list.addEventListener("change", () => void this.desk.choose(({ choices }) => (choices.cells = Number(list.value))));
     return el("section", {}, el("h2", {}, say("resolution")), list);
   }

@@ -57,7 +57,7 @@ export class SetupPane {
     }
     const bench = new Bench(this.desk, this.session.project.get(), this.session.setUp);
     const told = el("p", { id: "setup-told", class: "dim" }, this.session.statedTold || this.desk.setUpTold.get());
-    host.replaceChildren(this.machine(), this.raw(cut), bench.fixtures(cut), ...(this.hasMachine ? [bench.zero()] : []), this.tools(cut), bench.resolution(), told);
+    host.replaceChildren(this.machine(), this.raw(cut), bench.fixtures(cut), ...(this.hasMachine ? [bench.zero()] : []), this.tools(cut), bench.resolution(this.session.mostCells), told);
   }
 
   /** The machine, where the bar above has no room for it, and which files of the project file are not at hand. */

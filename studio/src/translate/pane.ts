@@ -140,7 +140,7 @@ export class TranslatePane {
   private async keep(without?: readonly [SideName, string]): Promise<void> {
     const place = byId("answers-told");
     const told = await this.desk.keepAnswers(without);
-    place.textContent = told || say("answersKept");
+    place.textContent = told || say(this.desk.project?.server ? "answersHere" : "answersKept");
     place.classList.toggle("bad", told !== "");
   }
 

@@ -15,7 +15,7 @@ export interface Reach {
 /** Keys with Ctrl (or Cmd); `^` is Shift. */
 function table({ desk, player, editor, projects, toLine }: Reach): Record<string, () => void> {
   return {
-    s: () => void desk.save(),
+    s: () => void desk.saveNow(),
     o: projects,
     "^Enter": () => player.toggle(),
     ".": () => player.step(1),
