@@ -51,11 +51,11 @@ pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
 struct MachineDocument {
     /// Name in addresses, and of its profile.
     name: String,
+    /// It comes with ncc.
+    ships_with_ncc: bool,
     title: Option<String>,
     /// Dialect of its control; none of a machine.json.
     dialect: Option<String>,
-    /// It comes with ncc.
-    ships_with_ncc: bool,
 }
 
 /// All machines.

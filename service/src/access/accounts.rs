@@ -16,8 +16,8 @@ use axum::extract::{Path, RawQuery, State};
 use axum::http::header::LOCATION;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::caller::Caller;
 use super::checks::{self, password_fits};
@@ -30,32 +30,64 @@ use crate::http::{self, Problem, body};
 use crate::rights::{Act, Right};
 use crate::store::{Account, AccountChange};
 
-#[derive(Deserialize)]
+/// Group of the addresses in the description.
+const TAG: &str = "accounts";
+
+/// A new account.
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(as = NewAccount)]
 struct New {
     name: String,
+    #[schema(format = Password)]
     password: String,
     rights: Vec<Right>,
 }
 
-#[derive(Deserialize)]
+/// A change of an account: a field that is left out stays.
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(as = AccountChange)]
 struct Patch {
     rights: Option<Vec<Right>>,
     disabled: Option<bool>,
+    #[schema(format = Password)]
     password: Option<String>,
 }
 
-fn told(account: &Account) -> Value {
-    json!({
-        "name": account.name,
-        "disabled": account.is_disabled,
-        "rights": account.rights,
-        "made": http::moment(account.made),
-    })
+/// An account.
+#[derive(Serialize, ToSchema)]
+#[schema(as = Account)]
+struct AccountDocument {
+    name: String,
+    disabled: bool,
+    rights: Vec<Right>,
+    /// Its begin, UTC.
+    #[schema(format = DateTime)]
+    made: String,
+}
+
+/// A page of accounts.
+#[derive(Serialize, ToSchema)]
+struct Accounts {
+    accounts: Vec<AccountDocument>,
+    /// Value of `after` for the next page.
+    next: Option<String>,
+}
+
+fn told(account: &Account) -> AccountDocument {
+    AccountDocument {
+        name: account.name.clone(),
+        disabled: account.is_disabled,
+        rights: account.rights.clone(),
+        made: http::moment(account.made),
+    }
 }
 
 /// Makes an account. The first one is an admin; from then on a login is needed.
+#[utoipa::path(post, path = "/api/v1/accounts", tag = TAG,
+    request_body = New,
+    responses((status = 201, body = AccountDocument, headers(("Location" = String)))))]
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -77,6 +109,12 @@ pub(super) async fn create(
 }
 
 /// Lists accounts.
+#[utoipa::path(get, path = "/api/v1/accounts", tag = TAG,
+    params(
+        ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Accounts)))]
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -88,11 +126,13 @@ pub(super) async fn list(
     query.end("after, limit")?;
     let accounts = shared.store(&caller, move |store| Ok(store.accounts(&after, most)?)).await?;
     let next = accounts.last().filter(|_| accounts.len() == most as usize).map(|last| last.name.clone());
-    let accounts: Vec<Value> = accounts.iter().map(told).collect();
-    Ok(http::json(&json!({ "accounts": accounts, "next": next })))
+    Ok(http::json(&Accounts { accounts: accounts.iter().map(told).collect(), next }))
 }
 
-/// Tells of an account.
+/// Gives what is known of an account.
+#[utoipa::path(get, path = "/api/v1/accounts/{name}", tag = TAG,
+    params(("name" = String, Path)),
+    responses((status = 200, body = AccountDocument)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -104,7 +144,11 @@ pub(super) async fn read(
     Ok(http::json(&told(&account)))
 }
 
-/// Changes an account.
+/// Changes rights or password of an account, or disables it.
+#[utoipa::path(patch, path = "/api/v1/accounts/{name}", tag = TAG,
+    params(("name" = String, Path)),
+    request_body = Patch,
+    responses((status = 200, body = AccountDocument)))]
 pub(super) async fn change(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -130,6 +174,9 @@ pub(super) async fn change(
 }
 
 /// Disables an account.
+#[utoipa::path(delete, path = "/api/v1/accounts/{name}", tag = TAG,
+    params(("name" = String, Path)),
+    responses((status = 204)))]
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -13,7 +13,8 @@ use axum::extract::{RawQuery, State};
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream;
-use serde_json::{Value, json};
+use serde::Serialize;
+use utoipa::ToSchema;
 
 use super::caller::Caller;
 use crate::Shared;
@@ -33,19 +34,52 @@ enum Form {
     Csv,
 }
 
-fn told(entry: &Entry) -> Value {
-    json!({
-        "number": entry.number,
-        "moment": http::moment(entry.moment),
-        "account": entry.account,
-        "way": entry.way,
-        "address": entry.address,
-        "request": entry.request,
-        "action": entry.action,
-        "subject": entry.subject,
-        "detail": entry.detail,
-        "digest": entry.digest,
-    })
+/// An entry of the audit.
+#[derive(Serialize, ToSchema)]
+#[schema(as = AuditEntry)]
+struct EntryDocument {
+    /// Counted from 1.
+    number: i64,
+    /// Its time, UTC.
+    #[schema(format = DateTime)]
+    moment: String,
+    /// The account, or the user of this computer.
+    account: String,
+    /// The way by which the account was known: a session, a token, a job, the command line.
+    way: String,
+    /// Address of the client.
+    address: String,
+    /// Name of the request: `X-Request-Id`.
+    request: String,
+    action: String,
+    subject: String,
+    detail: String,
+    /// SHA-256 of this entry and of the digest before.
+    digest: String,
+}
+
+/// A page of the audit.
+#[derive(Serialize, ToSchema)]
+struct Audit {
+    audit: Vec<EntryDocument>,
+    /// Value of `before` for the next page.
+    next: Option<i64>,
+}
+
+fn told(entry: &Entry) -> EntryDocument {
+    let own = entry.clone();
+    EntryDocument {
+        number: own.number,
+        moment: http::moment(own.moment),
+        account: own.account,
+        way: own.way,
+        address: own.address,
+        request: own.request,
+        action: own.action,
+        subject: own.subject,
+        detail: own.detail,
+        digest: own.digest,
+    }
 }
 
 /// A line of the table. A cell that a spreadsheet would compute begins with `'`.
@@ -76,7 +110,19 @@ fn moment(query: &mut Query, name: &str) -> Result<Option<i64>, Problem> {
     at.and_then(|since| i64::try_from(since.as_secs()).ok()).map(Some).ok_or_else(form)
 }
 
-/// Gives the audit.
+/// Gives the audit, the newest entry first; as a table (CSV), the oldest first.
+#[utoipa::path(get, path = "/api/v1/audit", tag = "accounts",
+    params(
+        ("form" = Option<String>, Query, description = "`json`, or `csv`"),
+        ("account" = Option<String>, Query, description = "Entries of an account"),
+        ("subject" = Option<String>, Query, description = "Entries about a thing"),
+        ("action" = Option<String>, Query, description = "Entries of an action"),
+        ("from" = Option<String>, Query, description = "Entries at this moment and later: `2026-01-31T12:00:00Z`"),
+        ("until" = Option<String>, Query, description = "Entries before this moment"),
+        ("before" = Option<i64>, Query, description = "The last one of the page before: its `next`; not for a table"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it; not for a table"),
+    ),
+    responses((status = 200, content((Audit = "application/json"), (String = "text/csv; charset=utf-8; header=present")))))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -106,8 +152,7 @@ pub(super) async fn read(
     query.end("form, account, subject, action, from, until, before, limit")?;
     let entries = shared.store(&caller, move |store| Ok(store.audit(&filter, before, most)?)).await?;
     let next = entries.last().filter(|_| entries.len() == most as usize).map(|last| last.number);
-    let entries: Vec<Value> = entries.iter().map(told).collect();
-    Ok(http::json(&json!({ "audit": entries, "next": next })))
+    Ok(http::json(&Audit { audit: entries.iter().map(told).collect(), next }))
 }
 
 /// The table in pieces. One that breaks off ends without its last chunk.

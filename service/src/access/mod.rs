@@ -24,8 +24,8 @@ mod tokens;
 use std::sync::Arc;
 
 use axum::extract::DefaultBodyLimit;
-use axum::routing::{delete, get, put};
 use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
 
 use crate::Shared;
 
@@ -38,15 +38,12 @@ const LARGEST: usize = 1 << 17;
 /// Addresses of sessions, tokens, accounts and the audit.
 pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
     OpenApiRouter::new()
-        .route("/api/v1/session", get(sessions::read).post(sessions::login).delete(sessions::logout))
-        .route("/api/v1/session/password", put(sessions::password))
-        .route("/api/v1/tokens", get(tokens::list).post(tokens::create))
-        .route("/api/v1/tokens/{id}", delete(tokens::delete))
-        .route("/api/v1/accounts", get(accounts::list).post(accounts::create))
-        .route(
-            "/api/v1/accounts/{name}",
-            get(accounts::read).patch(accounts::change).delete(accounts::delete),
-        )
-        .route("/api/v1/audit", get(audit::read))
+        .routes(routes!(sessions::read, sessions::login, sessions::logout))
+        .routes(routes!(sessions::password))
+        .routes(routes!(tokens::list, tokens::create))
+        .routes(routes!(tokens::delete))
+        .routes(routes!(accounts::list, accounts::create))
+        .routes(routes!(accounts::read, accounts::change, accounts::delete))
+        .routes(routes!(audit::read))
         .layer(DefaultBodyLimit::max(LARGEST))
 }

@@ -16,8 +16,8 @@ use axum::extract::{RawQuery, State};
 use axum::http::header::SET_COOKIE;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
-use serde::Deserialize;
-use serde_json::json;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::buckets::Holder;
 use super::caller::Caller;
@@ -31,28 +31,49 @@ use crate::http::query::Query;
 use crate::http::{self, Problem, body};
 use crate::rights::{Right, Via, Who};
 
+/// Group of the addresses in the description.
+const TAG: &str = "accounts";
+
 /// A login.
-#[derive(Deserialize)]
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 struct Login {
     user: String,
+    #[schema(format = Password)]
     password: String,
 }
 
 /// Another password of the user's account.
-#[derive(Deserialize)]
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(as = PasswordChange)]
 struct Change {
+    #[schema(format = Password)]
     old: String,
+    #[schema(format = Password)]
     new: String,
+}
+
+/// The user of a request.
+#[derive(Serialize, ToSchema)]
+#[schema(as = Session)]
+struct SessionDocument<'s> {
+    /// The account, or the user of this computer; none without a login.
+    user: Option<&'s str>,
+    /// `needed`, or `none` while there is no account.
+    login: &'static str,
+    rights: &'s [Right],
+    /// Value of the header `X-NCC-CSRF` for requests that change something.
+    csrf: &'s str,
 }
 
 fn told(user: Option<&str>, is_needed: bool, rights: &[Right], csrf: &str) -> Response {
     let login = if is_needed { "needed" } else { "none" };
-    http::json(&json!({ "user": user, "login": login, "rights": rights, "csrf": csrf }))
+    http::json(&SessionDocument { user, login, rights, csrf })
 }
 
-/// Tells who asks, and whether a login is needed.
+/// Gives the user of the request, and whether a login is needed.
+#[utoipa::path(get, path = "/api/v1/session", tag = TAG, responses((status = 200, body = SessionDocument<'static>)))]
 pub(super) async fn read(
     State(shared): State<Arc<Shared>>,
     caller: Option<Extension<Caller>>,
@@ -89,7 +110,10 @@ pub(super) fn not_compared(not: NotCompared) -> Problem {
     }
 }
 
-/// Begins a session. It has a new secret, whatever cookie has come.
+/// Begins a session: a cookie, with a new secret whatever cookie has come.
+#[utoipa::path(post, path = "/api/v1/session", tag = TAG,
+    request_body = Login,
+    responses((status = 200, body = SessionDocument<'static>, headers(("Set-Cookie" = String)))))]
 pub(super) async fn login(
     State(shared): State<Arc<Shared>>,
     peer: Option<Extension<Peer>>,
@@ -136,6 +160,7 @@ fn set_cookie(answer: &mut Response, cookie: &str) {
 }
 
 /// Ends the session.
+#[utoipa::path(delete, path = "/api/v1/session", tag = TAG, responses((status = 204)))]
 pub(super) async fn logout(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -150,6 +175,9 @@ pub(super) async fn logout(
 }
 
 /// Changes the password of the user's account. A stolen session does not have it, and cannot.
+#[utoipa::path(put, path = "/api/v1/session/password", tag = TAG,
+    request_body = Change,
+    responses((status = 204)))]
 pub(super) async fn password(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -15,8 +15,8 @@ use axum::extract::{Path, RawQuery, State};
 use axum::http::header::LOCATION;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 use super::caller::Caller;
 use super::secrets;
@@ -33,12 +33,46 @@ const DAYS_90: i64 = 90 * 86_400;
 /// Signs of the name of a token in addresses.
 const ID: usize = 20;
 
-#[derive(Deserialize)]
+/// Group of the addresses in the description.
+const TAG: &str = "accounts";
+
+/// A new token.
+#[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(as = NewToken)]
 struct Asked {
     name: String,
     scopes: Vec<Scope>,
+    /// Its end, UTC; 90 days from now without it.
+    #[schema(format = DateTime)]
     expires: Option<String>,
+}
+
+/// A token.
+#[derive(Serialize, ToSchema)]
+#[schema(as = Token)]
+struct TokenDocument {
+    /// Name in addresses.
+    id: String,
+    name: String,
+    scopes: Vec<Scope>,
+    /// Its begin, UTC.
+    #[schema(format = DateTime)]
+    made: String,
+    /// Its end, UTC.
+    #[schema(format = DateTime)]
+    expires: String,
+    /// The token itself: in the answer to its maker alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    token: Option<String>,
+}
+
+/// A page of tokens.
+#[derive(Serialize, ToSchema)]
+struct Tokens {
+    tokens: Vec<TokenDocument>,
+    /// Value of `after` for the next page.
+    next: Option<String>,
 }
 
 /// Seconds since 1970 (UTC).
@@ -82,17 +116,21 @@ pub(super) fn make(name: &str, mut scopes: Vec<Scope>, expires: Option<&str>) ->
     Ok(Made { token: Token { id, name: name.to_owned(), scopes, made, expires }, secret })
 }
 
-fn told(token: &Token) -> Value {
-    json!({
-        "id": token.id,
-        "name": token.name,
-        "scopes": token.scopes,
-        "made": http::moment(token.made),
-        "expires": http::moment(token.expires),
-    })
+fn told(token: &Token) -> TokenDocument {
+    TokenDocument {
+        id: token.id.clone(),
+        name: token.name.clone(),
+        scopes: token.scopes.clone(),
+        made: http::moment(token.made),
+        expires: http::moment(token.expires),
+        token: None,
+    }
 }
 
 /// Makes a token of the user's account.
+#[utoipa::path(post, path = "/api/v1/tokens", tag = TAG,
+    request_body = Asked,
+    responses((status = 201, body = TokenDocument, headers(("Location" = String)))))]
 pub(super) async fn create(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -108,13 +146,18 @@ pub(super) async fn create(
     let (token, account) = (made.token.clone(), caller.name().to_owned());
     let digest = secrets::kept(&made.secret);
     shared.store(&caller, move |store| Ok(store.create_token(&account, &token, &digest)?)).await?;
-    let mut document = told(&made.token);
-    document["token"] = json!(made.secret);
+    let document = TokenDocument { token: Some(made.secret), ..told(&made.token) };
     let place = format!("/api/v1/tokens/{}", made.token.id);
     Ok((StatusCode::CREATED, [(LOCATION, place)], http::json(&document)).into_response())
 }
 
 /// Lists the tokens of the user's account.
+#[utoipa::path(get, path = "/api/v1/tokens", tag = TAG,
+    params(
+        ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
+        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+    ),
+    responses((status = 200, body = Tokens)))]
 pub(super) async fn list(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -127,11 +170,13 @@ pub(super) async fn list(
     caller.login()?;
     let tokens = shared.store(&caller, move |store| Ok(store.tokens(&after, most)?)).await?;
     let next = tokens.last().filter(|_| tokens.len() == most as usize).map(|last| last.id.clone());
-    let tokens: Vec<Value> = tokens.iter().map(told).collect();
-    Ok(http::json(&json!({ "tokens": tokens, "next": next })))
+    Ok(http::json(&Tokens { tokens: tokens.iter().map(told).collect(), next }))
 }
 
 /// Takes a token of the user's account back.
+#[utoipa::path(delete, path = "/api/v1/tokens/{id}", tag = TAG,
+    params(("id" = String, Path)),
+    responses((status = 204)))]
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

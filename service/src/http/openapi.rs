@@ -15,6 +15,9 @@ use axum::response::Response;
 use axum::routing::get;
 use axum::{Router, middleware};
 use utoipa::openapi::path::Operation;
+use utoipa::openapi::security::{
+    ApiKey, ApiKeyValue, HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme,
+};
 use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, ResponseBuilder};
 use utoipa::{PartialSchema, ToSchema};
 use utoipa_axum::router::OpenApiRouter;
@@ -68,6 +71,18 @@ fn describe(of: &mut OpenApi) {
     let error = ResponseBuilder::new().description("An error (RFC 9457)").content(MEDIA, problem).build();
     let components = of.components.get_or_insert_default();
     components.schemas.insert(name.into_owned(), Body::schema());
+    let cookie = ApiKeyValue::with_description("ncc_session", "The cookie of `POST /api/v1/session`");
+    let token =
+        HttpBuilder::new().scheme(HttpAuthScheme::Bearer).description(Some("Of `POST /api/v1/tokens`"));
+    components.security_schemes.insert("token".to_owned(), SecurityScheme::Http(token.build()).into());
+    components
+        .security_schemes
+        .insert("session".to_owned(), SecurityScheme::ApiKey(ApiKey::Cookie(cookie)).into());
+    // Without accounts neither is needed.
+    let none = SecurityRequirement::default();
+    let [token, session] =
+        ["token", "session"].map(|name| SecurityRequirement::new::<_, [&str; 0], _>(name, []));
+    of.security = Some(vec![none, token, session]);
     for operation in of.paths.paths.values_mut().flat_map(operations) {
         operation.responses.responses.insert("default".to_owned(), RefOr::T(error.clone()));
     }
