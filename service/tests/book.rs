@@ -1,4 +1,4 @@
-//! Each example of the book's page, run by a shell against a started server.
+//! Each example of the book's pages, run by a shell against a started server.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -25,15 +25,22 @@ fn examples(page: &str) -> Vec<(String, Vec<String>)> {
 }
 
 #[test]
-fn the_examples_of_the_page_do_what_it_says() {
+fn the_examples_of_the_pages_do_what_they_say() {
     let curl = Command::new("curl").arg("--version").stdout(Stdio::null()).status();
     if cfg!(windows) || !curl.is_ok_and(|status| status.success()) {
         println!("skipped: no curl, or no shell, to run the examples of the book");
         return;
     }
-    let page = fs::read_to_string(repository("docs/book/src/use/serve.md")).expect("the page");
+    for (page, least) in [("serve", 5), ("serve-users", 3)] {
+        examples_of(page, least);
+    }
+}
+
+/// Runs the examples of a page, so many at least, against a server of their own.
+fn examples_of(page: &str, least: usize) {
+    let page = fs::read_to_string(repository(&format!("docs/book/src/use/{page}.md"))).expect("the page");
     let examples = examples(&page);
-    assert!(examples.len() >= 5, "{} examples", examples.len());
+    assert!(examples.len() >= least, "{} examples", examples.len());
     let server = Server::all();
     let folder = tempfile::tempdir().expect("a folder");
     fs::copy(repository("corpus/mach9/table9.cn"), folder.path().join("table9.cn")).expect("a program");

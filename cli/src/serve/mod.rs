@@ -29,8 +29,9 @@ Examples:
   ncc serve user add ana --role admin           the first account
   ncc serve --listen 0.0.0.0:8274 --host ncc.shop.example --tls-cert cert.pem --tls-key key.pem
 
-It answers this computer alone (127.0.0.1), without a login, until there is an account (ncc serve user add). To answer other
-computers it needs an account, TLS, and the names by which they ask. Ctrl-C ends it: requests that are being answered end first.")]
+It answers this computer alone (127.0.0.1), without a login, until there is an account. To answer
+other computers it needs an account, TLS, and the names by which they ask. Ctrl-C ends it: requests
+that are being answered end first.")]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct Serve {
     /// Something else than to serve

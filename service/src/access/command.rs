@@ -7,7 +7,7 @@ use super::tokens::make;
 use crate::Cost;
 use crate::http::Problem;
 use crate::rights::{Right, Role, Scope, Who};
-use crate::store::{AccountChange, Place, Store};
+use crate::store::{AccountChange, Place, Store, StoreError};
 
 /// Accounts that are read at once.
 const PIECE: u32 = 1000;
@@ -27,9 +27,15 @@ impl From<Problem> for UsersError {
     }
 }
 
-impl From<crate::store::StoreError> for UsersError {
-    fn from(error: crate::store::StoreError) -> UsersError {
-        UsersError { reason: error.to_string(), help: None }
+impl From<StoreError> for UsersError {
+    fn from(error: StoreError) -> UsersError {
+        let help = match error {
+            StoreError::LastAdmin => {
+                Some("the first account, and one at least, has --role admin without --folder")
+            }
+            _ => None,
+        };
+        UsersError { reason: error.to_string(), help: help.map(str::to_owned) }
     }
 }
 

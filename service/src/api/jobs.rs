@@ -311,7 +311,9 @@ pub(super) async fn events(
                 return None;
             }
             let id = watching.id.clone();
-            let job = watching.shared.store(&watching.caller, move |store| Ok(store.job(&id)?)).await.ok()?;
+            // A session that has ended meanwhile, and rights that were lost, end the events.
+            let now = move |store: &crate::store::Store| Ok(store.renewed()?.job(&id)?);
+            let job = watching.shared.store(&watching.caller, now).await.ok()?;
             let now = told(&job);
             watching.over = job.ended.is_some();
             if watching.told.as_ref() != Some(&now) {

@@ -42,7 +42,7 @@ impl Gate {
             }
         };
         let named: Vec<String> = listen.hosts.iter().map(|name| name.to_ascii_lowercase()).collect();
-        let mut hosts: Vec<String> = own.iter().flat_map(|name| with_port(name)).collect();
+        let mut hosts: Vec<String> = own.iter().flat_map(with_port).collect();
         let scheme = if is_tls { "https" } else { "http" };
         let mut origins: Vec<String> = hosts.iter().map(|host| format!("{scheme}://{host}")).collect();
         for host in named.iter().flat_map(with_port) {

@@ -50,6 +50,31 @@ impl Store {
         Ok(found.map(|(who, _)| who))
     }
 
+    /// The same store with the rights that the user has now, for an answer that goes on for long.
+    ///
+    /// # Errors
+    /// The session or the token has ended meanwhile.
+    pub(crate) fn renewed(&self) -> Result<Store, StoreError> {
+        let (sql, of) = match &self.who.via {
+            Via::Login(digest) => (
+                "SELECT l.account FROM login l JOIN account a ON a.name = l.account
+                 WHERE l.digest = $1 AND l.made <= $2 AND NOT a.is_disabled",
+                digest,
+            ),
+            Via::Token(id, _) => (
+                "SELECT t.account FROM token t JOIN account a ON a.name = t.account
+                 WHERE t.id = $1 AND t.expires > $2 AND NOT a.is_disabled",
+                id,
+            ),
+            _ => return Ok(self.clone()),
+        };
+        self.database.read(|from| {
+            from.row(sql, values![of, now()])?;
+            let rights = holding(from, &self.who.name)?;
+            Ok(self.of(Who { rights, ..Who::clone(&self.who) }.into()))
+        })
+    }
+
     /// Begins a session of an account; sessions that are over are let go of, and so is the one before it.
     pub(crate) fn log_in(
         &self,

@@ -16,6 +16,7 @@ use crate::Shared;
 use crate::access::Caller;
 use crate::http::query::Query;
 use crate::http::{Problem, body};
+use crate::rights::Act;
 use crate::translating::callable;
 
 /// Bytes of a request at most.
@@ -32,6 +33,8 @@ pub(super) async fn open(
     RawQuery(query): RawQuery,
 ) -> Result<StatusCode, Problem> {
     Query::of(query.as_deref()).end("")?;
+    // An account without rights has no use of the compiler.
+    caller.may_somewhere(Act::Read)?;
     let is_first = shared.rooms.len() == 0;
     shared.rooms.open(caller.name(), &room)?;
     if is_first {
@@ -145,6 +148,7 @@ pub(super) async fn run(
         .map_err(|_| Problem::request("the request is no text in UTF-8"))?;
     let request = bounded(&request, shared.rooms.moves())?;
     let room: Arc<Room> = shared.rooms.of(caller.name(), &room)?;
+    shared.guard.takes_work(&caller)?;
     let mut inside = Arc::clone(&room.inside).lock_owned().await;
     let counts = Arc::clone(&shared);
     let work = move || {

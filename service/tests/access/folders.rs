@@ -1,10 +1,13 @@
 //! Rights by folder: what is in another one is as if it were not there.
 
+use std::io::Read;
+use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
+use ncc_service::Limits;
 use serde_json::{Value, json};
 
-use super::{User, admin, limits, make, with_rights};
+use super::{User, admin, limits, make, user, with_rights};
 use crate::client::{Answer, PROGRAM, Server};
 
 /// A program in a folder.
@@ -260,7 +263,7 @@ fn a_key_of_another_user_gives_nothing() {
 /// A job does what its author may do when it does it.
 #[test]
 fn a_job_has_the_rights_of_its_author() {
-    let server = Server::limited(limits());
+    let server = Server::limited(Limits { work: Duration::from_secs(2), ..limits() });
     let root = admin(&server);
     let ben = with_rights(&server, &root, "ben", &[("plates", "editor"), ("plates/read", "reader")]);
     let ids: Vec<String> =
@@ -283,14 +286,34 @@ fn a_job_has_the_rights_of_its_author() {
     // Tasks that wait when the rights are lost are refused.
     let endless = "%\nO1\nG21 G90 G54\n#1=0\nN10 #1=#1+1\nG0 X[#1 MOD 7]\nGOTO10\nM30\n%\n";
     let mut waiting: Vec<String> = Vec::new();
-    for number in 0..8 {
+    // As many as there are workers, and then the others.
+    for number in 0..std::thread::available_parallelism().map_or(2, usize::from) {
         let place = format!("/api/v1/programs?name=e{number}&folder=plates/a&dialect=fanuc");
         waiting.push(make(&server, &root, &place, &format!("{endless}({number})\n").into()));
     }
     waiting.extend(ids);
     let id = make(&server, &ben, "/api/v1/jobs", &json!({ "programs": waiting, "to": "siemens" }));
+    // Events of a session that ends end with it, and those of rights that are lost.
+    let events = |by: &User| {
+        let headers: Vec<_> =
+            by.headers.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+        let mut stream = server.send("GET", &format!("/api/v1/jobs/{id}/events"), &headers, b"");
+        let mut begin = [0; 100];
+        stream.read_exact(&mut begin).expect("the first event");
+        stream
+    };
+    let end = |mut stream: TcpStream| {
+        let mut rest = String::new();
+        stream.read_to_string(&mut rest).expect("the end of the events");
+        assert!(!rest.contains("event: end"), "{rest}");
+    };
+    let other = user(&server, "ben");
+    let [of_session, of_rights] = [&other, &ben].map(events);
+    assert_eq!(other.ask(&server, "DELETE", "/api/v1/session", &Value::Null).status, 204);
+    end(of_session);
     let changed = root.ask(&server, "PATCH", "/api/v1/accounts/ben", &json!({ "rights": [] }));
     assert_eq!(changed.status, 200, "{}", changed.text());
+    end(of_rights);
     assert_eq!(ben.get(&server, &format!("/api/v1/jobs/{id}")).status, 404);
     ended(&server, &root, &id);
     let results = root.get(&server, &format!("/api/v1/jobs/{id}/results")).json();
