@@ -22,6 +22,8 @@ mod plot;
 mod project;
 mod provenance;
 mod questions;
+#[cfg(feature = "serve")]
+mod serve;
 mod sessions;
 mod simulate;
 mod stored;
