@@ -94,7 +94,10 @@ pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver
             Ok(Next::Nothing) => GLANCE,
             Ok(Next::Stopped) => return,
             Err(problem) => {
-                crate::observe::fault(&format!("the facts of a program were not computed: {}", problem.detail()));
+                crate::observe::fault(&format!(
+                    "the facts of a program were not computed: {}",
+                    problem.detail()
+                ));
                 GLANCE * 20
             }
         };

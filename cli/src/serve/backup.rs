@@ -47,8 +47,7 @@ pub(super) fn backup(args: &Backup) -> Result<Exit, Problem> {
             "name a new file; nothing is written over",
         ));
     }
-    let rows =
-        ncc_service::backup(&args.database.place()?, &args.file).map_err(|why| unusable(&why))?;
+    let rows = ncc_service::backup(&args.database.place()?, &args.file).map_err(|why| unusable(&why))?;
     files::to_stdout(&mut |out| writeln!(out, "{shown}: {rows} rows"))?;
     Ok(Exit::Done)
 }
