@@ -103,7 +103,7 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
         Verb::Simulate(args) => return ended(simulate::run(args, &known, &mut err), &mut err),
         #[cfg(feature = "serve")]
-        Verb::Serve(args) => crate::serve::run(args),
+        Verb::Serve(args) => return ended(crate::serve::run(args, &mut err), &mut err),
         #[cfg(feature = "studio")]
         Verb::Studio(args) => studio(args, &mut err),
         Verb::Verify(args) => return ended(review::verify::run(args, &known, &mut err), &mut err),

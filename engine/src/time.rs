@@ -119,8 +119,16 @@ pub(crate) fn summed_up(
     let shown = source.shown.clone();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };
     human::print(messages, &mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
+    let mut outputs = Vec::new();
+    if asked.findings {
+        let found = entries(&mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
+        let called = source.called.iter().flat_map(|called| &called.files);
+        let called: Vec<&str> = called.map(|file| file.name.as_str()).collect();
+        outputs.push(("findings", serde_json::to_vec(&found).unwrap_or_default()));
+        outputs.push(("called", serde_json::to_vec(&called).unwrap_or_default()));
+    }
     if course.refused {
-        return Ok((Exit::Refused, Vec::new()));
+        return Ok((Exit::Refused, outputs));
     }
     let assumed = assumptions(&plan, profile, &unstated, &course);
     let timing = Timing::of(&asked.file, &plan, &course, assumed, tallier.finish());
@@ -137,7 +145,8 @@ pub(crate) fn summed_up(
     let (mut document, mut tools) = (Vec::new(), Vec::new());
     report.json(&mut document).map_err(cannot)?;
     report.tool_list(&mut tools).map_err(cannot)?;
-    Ok((Exit::Done, vec![("document", document), ("tools", tools)]))
+    outputs.extend([("document", document), ("tools", tools)]);
+    Ok((Exit::Done, outputs))
 }
 
 /// Facts of machine and control that the times assume, a line each.

@@ -18,7 +18,9 @@ mod api;
 mod case_study;
 mod chance;
 mod compiler;
+mod facts;
 mod http;
+mod import;
 mod machines;
 mod observe;
 mod rights;
@@ -31,6 +33,7 @@ mod workers;
 
 use std::io;
 use std::net::TcpListener;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -45,12 +48,13 @@ pub use self::access::{Users, UsersError};
 use self::case_study::{Remote, Shelf};
 use self::http::arrival::{self, Arrivals};
 use self::http::{Problem, compression, connections, gate, openapi, tls};
+pub use self::import::{Entry, Import, Imported, NotImported};
 use self::observe::Counters;
 pub use self::observe::{Form as LogForm, Level as LogLevel, log};
 pub use self::rights::{Role, Scope};
 pub use self::settings::{Cost, Listen, Rate};
 pub use self::store::Place;
-use self::store::Store;
+use self::store::{Store, StoreError};
 use self::studio::Rooms;
 use self::work::Pool;
 
@@ -245,6 +249,26 @@ impl Shared {
     }
 }
 
+/// Copies a database into a new file, an SQLite one of either, which nobody else may read; gives how many rows it has. Servers
+/// may go on meanwhile.
+///
+/// # Errors
+/// The file is there already or cannot be written, or the database cannot be read; the reason.
+pub fn backup(place: &Place, into: &Path) -> Result<u64, String> {
+    store::backup(place, into).map_err(|error| error.to_string())
+}
+
+/// Makes an empty database what a backup has, all of it or nothing; gives how many rows.
+///
+/// # Errors
+/// The file is no backup or damaged, or the database is not empty or cannot be written; the reason.
+pub fn restore(place: &Place, file: &Path) -> Result<u64, String> {
+    store::restore(place, file).map_err(|error| match error {
+        StoreError::Exists => "the database is not empty".to_owned(),
+        error => error.to_string(),
+    })
+}
+
 /// A server that is ready.
 pub struct Service {
     listener: TcpListener,
@@ -371,9 +395,14 @@ impl Service {
             self.listener.set_nonblocking(true)?;
             let listener = tokio::net::TcpListener::from_std(self.listener)?;
             let (stop, asked) = watch::channel(false);
-            let workers: Vec<_> = (0..self.workers)
-                .map(|_| tokio::spawn(workers::work(Arc::clone(&self.shared), asked.clone())))
-                .collect();
+            let workers: Vec<_> =
+                (0..self.workers)
+                    .map(|_| tokio::spawn(workers::work(Arc::clone(&self.shared), asked.clone())))
+                    // Half of the threads at most compute facts, so that requests find a thread.
+                    .chain((0..self.workers.div_ceil(2)).map(|_| {
+                        tokio::spawn(workers::compute_facts(Arc::clone(&self.shared), asked.clone()))
+                    }))
+                    .collect();
             let stopped = async {
                 while !ncc_exec::halt::is_asked() {
                     tokio::time::sleep(Duration::from_millis(50)).await;

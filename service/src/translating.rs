@@ -24,7 +24,7 @@ const FOLDER: u64 = 64 << 20;
 const PROGRAMS: u32 = 10_000;
 
 /// The code of a called program that is not there.
-const NOT_THERE: &str = "NC0217";
+pub(crate) const NOT_THERE: &str = "NC0217";
 
 /// A request for a translation. Names and values are those of the command line's options.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -111,7 +111,7 @@ pub(crate) fn profile(store: &Store, name: &str) -> Result<(Option<String>, Stri
 }
 
 /// A digest of the dictionary of a dialect, with its base dictionaries.
-fn dictionary(id: &str) -> Option<String> {
+pub(crate) fn dictionary(id: &str) -> Option<String> {
     let mut hashes = Vec::new();
     let mut next = Some(ncc_dialects::builtin(id)?);
     while let Some(dialect) = next {
@@ -179,8 +179,12 @@ pub(crate) fn callable(store: &Store, of: &Revision) -> Result<Vec<Revision>, Pr
     }
 }
 
-/// Whether the programs that a translation calls are still the same.
-fn calls_the_same(store: &Store, of: &Revision, called: &BTreeMap<String, String>) -> Result<bool, Problem> {
+/// Whether the programs that another one calls are still the same.
+pub(crate) fn calls_the_same(
+    store: &Store,
+    of: &Revision,
+    called: &BTreeMap<String, String>,
+) -> Result<bool, Problem> {
     if called.is_empty() {
         return Ok(true);
     }
@@ -236,6 +240,7 @@ pub(crate) fn translate(
     author: &str,
 ) -> Result<(Translation, bool), Problem> {
     store.allows(Act::Change, &asked.program)?;
+    let is_named = asked.revision.is_some();
     let mut ready = ready(store, asked)?;
     for there in store.same_translations(&ready.key)? {
         if calls_the_same(store, &ready.of, &inputs(&there)?.called)? {
@@ -257,6 +262,10 @@ pub(crate) fn translate(
     };
     let kept = store.keep_translation(&record, [&made.output, &made.report, &made.map])?;
     let is_new = kept.id == id;
+    // One of an earlier revision is stale from its beginning.
+    if is_new && is_named && !stale(store, &kept)?.is_empty() {
+        store.note_stale(&kept.id)?;
+    }
     Ok((kept, is_new))
 }
 

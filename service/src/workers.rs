@@ -1,4 +1,4 @@
-//! Workers of jobs: each claims a task, does it, and ends it.
+//! Workers: those of jobs, of which each claims a task, does it, and ends it; and those that compute facts of programs.
 //!
 //! A worker that is asked to stop gives its task back. One that is killed cannot: its task is claimed again after a while.
 
@@ -10,6 +10,7 @@ use tokio::sync::watch;
 
 use crate::Shared;
 use crate::access::{Caller, guard};
+use crate::facts::{Next, next};
 use crate::http::Problem;
 use crate::rights::Who;
 use crate::store::{End, Store, Task};
@@ -68,6 +69,39 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
         if let Err(problem) = ended {
             crate::observe::fault(&format!("a task was not ended: {}", problem.detail()));
         }
+    }
+}
+
+/// Computes facts of programs that wait for them, until it is asked to stop.
+pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
+    let Ok(name) = crate::api::new_id() else {
+        crate::observe::fault("a worker has no name: the system gives no random bytes");
+        return;
+    };
+    // Facts are those of all programs; who reads them is asked when they are searched.
+    let caller = Caller::of(Who::service());
+    let limit = shared.pool.limit();
+    while !*stop.borrow() {
+        let worker = name.clone();
+        // A thread of the compiler is taken only where there is something to do, and the claim begins with it.
+        let done = match shared.store(&caller, |store| Ok(store.facts_wait()?)).await {
+            Ok(false) => Ok(Next::Nothing),
+            Ok(true) => shared.compile_in_turn(&caller, move |store| next(store, &worker, limit)).await,
+            Err(problem) => Err(problem),
+        };
+        let pause = match done {
+            Ok(Next::Done) => continue,
+            Ok(Next::Nothing) => GLANCE,
+            Ok(Next::Stopped) => return,
+            Err(problem) => {
+                crate::observe::fault(&format!(
+                    "the facts of a program were not computed: {}",
+                    problem.detail()
+                ));
+                GLANCE * 20
+            }
+        };
+        let _ = tokio::time::timeout(pause, stop.changed()).await;
     }
 }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "a test that is skipped says so")]
 mod access;
 mod attacks;
+mod backup;
 mod book;
 mod client;
 mod jobs;
@@ -9,6 +10,7 @@ mod limits;
 mod names;
 mod parts;
 mod programs;
+mod search;
 mod studio;
 mod study;
 mod tables;

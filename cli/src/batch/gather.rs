@@ -11,25 +11,25 @@ use ncc_driver::problem::Problem;
 
 /// A file to be translated.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Item {
+pub(crate) struct Item {
     /// Where it is.
-    pub(super) path: PathBuf,
+    pub(crate) path: PathBuf,
     /// Its sub-folder of the folder that was named, which its output has too.
-    pub(super) below: PathBuf,
+    pub(crate) below: PathBuf,
 }
 
 /// A file that is left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Skipped {
+pub(crate) struct Skipped {
     /// Where it is.
-    pub(super) path: PathBuf,
+    pub(crate) path: PathBuf,
     /// Why.
-    pub(super) reason: Reason,
+    pub(crate) reason: Reason,
 }
 
 /// Why a file is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Reason {
+pub(crate) enum Reason {
     /// Its name begins with a point.
     Hidden,
     /// Its extension is none of the source's dialect.
@@ -58,7 +58,7 @@ impl Reason {
     }
 
     /// What to say of so many.
-    pub(super) fn words(self, many: bool) -> &'static str {
+    pub(crate) fn words(self, many: bool) -> &'static str {
         match (self, many) {
             (Reason::Hidden, _) => "hidden",
             (Reason::Extension, false) => "of another extension",
@@ -75,13 +75,13 @@ impl Reason {
 
 /// What was found.
 #[derive(Debug, Default)]
-pub(super) struct Gathered {
+pub(crate) struct Gathered {
     /// To be translated, in the order in which they are named, and by name in a folder.
-    pub(super) items: Vec<Item>,
+    pub(crate) items: Vec<Item>,
     /// Left out.
-    pub(super) skipped: Vec<Skipped>,
+    pub(crate) skipped: Vec<Skipped>,
     /// Folders that cannot be read.
-    pub(super) unread: Vec<(PathBuf, Problem)>,
+    pub(crate) unread: Vec<(PathBuf, Problem)>,
     seen: BTreeSet<Identity>,
 }
 
@@ -106,7 +106,7 @@ pub(super) fn identity(path: &Path) -> Option<Identity> {
 }
 
 /// Finds the files of a batch. `output` is the folder that the outputs go to.
-pub(super) fn gather(named: &[PathBuf], extensions: &BTreeSet<String>, output: Option<&Path>) -> Gathered {
+pub(crate) fn gather(named: &[PathBuf], extensions: &BTreeSet<String>, output: Option<&Path>) -> Gathered {
     let mut found = Gathered::default();
     let output = output.and_then(identity);
     for path in named {

@@ -12,7 +12,7 @@
 //! ncc translate old/ --from fanuc --to siemens -o new/    new/a.mpf, new/b.mpf, and a line on each
 //! ```
 
-mod gather;
+pub(crate) mod gather;
 mod names;
 mod orders;
 pub(crate) mod per_tool;

@@ -2,14 +2,17 @@
 //!
 //! Not here: what it answers (`ncc_service`), and accounts (`users`).
 
+mod backup;
 mod database;
+mod import;
 mod users;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
-use ncc_driver::problem::Problem;
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_driver::problem::{Exit, Problem};
 use ncc_service::{Listen, OpenError, Part, Service};
 
 pub use self::database::Database;
@@ -26,6 +29,8 @@ Examples:
                                                 the documents in a PostgreSQL database
   ncc serve --only persistence --listen 127.0.0.1:8275
   ncc serve --only transpiler --persistence http://127.0.0.1:8275
+  ncc serve import programs/                    the programs of a folder
+  ncc serve backup monday.sqlite                a copy of the database
   ncc serve user add ana --role admin           the first account
   ncc serve --listen 0.0.0.0:8274 --host ncc.shop.example --tls-cert cert.pem --tls-key key.pem
 
@@ -72,6 +77,12 @@ pub enum Verb {
     /// Accounts: as soon as there is one, a login is needed
     #[command(subcommand)]
     User(User),
+    /// Puts the programs of a folder into the database
+    Import(import::Import),
+    /// Copies the database into a new file
+    Backup(backup::Backup),
+    /// Makes an empty database what a backup has
+    Restore(backup::Restore),
     /// Follows the chain of the audit: whether an entry was changed, put in or taken out
     Audit(Database),
 }
@@ -88,8 +99,8 @@ pub enum Only {
 }
 
 /// The name under which changes are kept.
-fn author(args: &Serve) -> String {
-    let stated = args.author.clone().filter(|name| !name.is_empty());
+fn author(stated: Option<&String>) -> String {
+    let stated = stated.cloned().filter(|name| !name.is_empty());
     stated.or_else(user_of_the_computer).unwrap_or_else(|| "unknown".to_owned())
 }
 
@@ -131,16 +142,20 @@ fn listen(args: &Serve) -> Listen {
 ///
 /// # Errors
 /// Wrong usage, an address that is taken, a database that cannot be used, or the network.
-pub fn run(args: &Serve) -> Result<(), Problem> {
+pub fn run(args: &Serve, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    let done = |()| Exit::Done;
     match &args.verb {
-        None => serve(args),
-        Some(Verb::User(user)) => users::run(user),
-        Some(Verb::Audit(database)) => users::audit(database),
+        None => serve(args).map(done),
+        Some(Verb::User(user)) => users::run(user).map(done),
+        Some(Verb::Import(args)) => import::run(args, err),
+        Some(Verb::Backup(args)) => backup::backup(args),
+        Some(Verb::Restore(args)) => backup::restore(args),
+        Some(Verb::Audit(database)) => users::audit(database).map(done),
     }
 }
 
 fn serve(args: &Serve) -> Result<(), Problem> {
-    let service = Service::open(listen(args), &part(args)?, &author(args)).map_err(|error| match error {
+    let service = Service::open(listen(args), &part(args)?, &author(args.author.as_ref())).map_err(|error| match error {
         OpenError::NoAccount => Problem::usage(
             "other computers could ask, and there is no account",
             "make one: ncc serve user add NAME --role admin; or answer this computer alone: --listen 127.0.0.1:8274",

@@ -31,7 +31,7 @@ pub enum Request {
     /// are wanted, `findings`, and `assumed`: the assumptions of the times, a list of lines.
     Time(Time),
     /// Executes a program with a clock, and sums up. Outputs: `document` (as of `ncc time --as json`), `tools` (as of `ncc time
-    /// --as tools`), `messages`.
+    /// --as tools`), `messages`; if they are wanted, `findings`, and `called`: a list of the files whose programs it calls.
     Summary(Summary),
     /// Compares what two programs do. Outputs: `document` (as of `ncc diff --format json`), `messages`.
     Diff(Two),

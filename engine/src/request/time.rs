@@ -98,6 +98,9 @@ pub struct Summary {
     /// As of [`Time`].
     #[serde(default)]
     pub tool_change_on: Option<ToolChangeOn>,
+    /// As of [`Time`].
+    #[serde(default)]
+    pub findings: bool,
 }
 
 impl Summary {
@@ -118,7 +121,7 @@ impl Summary {
             tool_change_on: self.tool_change_on,
             stage: Stage::After,
             form: Form::Document,
-            findings: false,
+            findings: self.findings,
             most: None,
         }
     }

@@ -138,11 +138,16 @@ pub(super) fn details(query: &mut Query) -> Result<Details, Problem> {
         machine: query.one("machine")?.unwrap_or_default(),
         tags: tags(query.all("tag"))?,
     };
+    fits(&details)?;
+    Ok(details)
+}
+
+/// Place, dialect and machine of a program are such as a program may have.
+pub(crate) fn fits(details: &Details) -> Result<(), Problem> {
     body::name(&details.name)?;
     folder(&details.folder)?;
     dialect(&details.dialect)?;
-    machine(&details.machine)?;
-    Ok(details)
+    machine(&details.machine)
 }
 
 /// A name of a dialect, or an empty one.

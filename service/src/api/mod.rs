@@ -13,6 +13,8 @@
 //! GET    /api/v1/programs/ID/revisions/N/text   its text then
 //! POST   /api/v1/programs/ID/revisions/N/restore
 //! GET    /api/v1/programs/ID/outputs/WHAT       times, tools, checks ([`outputs`])
+//! GET    /api/v1/programs/ID/facts              what it does, as it is searched by
+//! GET    /api/v1/search                         programs by what they say and do ([`search`])
 //! ```
 //!
 //! Every change makes a revision, so nothing is overwritten. The tag of a program is the number of its revision.
@@ -23,6 +25,7 @@ mod jobs;
 mod outputs;
 mod programs;
 mod revisions;
+mod search;
 mod states;
 mod texts;
 mod translations;
@@ -35,6 +38,7 @@ use utoipa_axum::routes;
 
 use crate::Shared;
 
+pub(crate) use self::document::fits;
 pub(crate) use self::programs::new_id;
 
 /// Addresses of programs, translations and jobs.
@@ -49,6 +53,8 @@ pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
         .routes(routes!(texts::read_revision))
         .routes(routes!(revisions::restore))
         .routes(routes!(outputs::read))
+        .routes(routes!(search::facts))
+        .routes(routes!(search::search))
         .routes(routes!(translations::list, translations::create))
         .routes(routes!(translations::read))
         .routes(routes!(states::list, states::step))

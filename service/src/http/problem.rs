@@ -124,6 +124,11 @@ impl Problem {
         self.0.status == StatusCode::BAD_REQUEST.as_u16()
     }
 
+    /// Whether the service could not do its part: the same may be done later.
+    pub(crate) fn is_of_the_service(&self) -> bool {
+        self.0.status >= StatusCode::INTERNAL_SERVER_ERROR.as_u16()
+    }
+
     /// Nothing is kept under a name.
     pub(crate) fn absent(detail: impl Into<String>) -> Problem {
         Problem::of(ABSENT, detail)

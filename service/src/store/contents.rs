@@ -57,9 +57,10 @@ impl Receiving {
 }
 
 impl Store {
-    /// Writes what has been received.
+    /// Writes the whole pieces of what has been received.
     pub(crate) fn put_aside(&self, receiving: &mut Receiving) -> Result<(), StoreError> {
-        self.database.write(|to| write(to, receiving))
+        let whole = receiving.rest.len() / PIECE * PIECE;
+        self.database.write(|to| write(to, receiving, whole))
     }
 
     /// Throws away what has been written of a content that is not wanted ([`Receiving::aside`]).
@@ -107,8 +108,8 @@ impl Store {
     }
 }
 
-/// Writes what has been received.
-fn write(to: &dyn Session, receiving: &mut Receiving) -> Result<(), StoreError> {
+/// Writes so many of the bytes that have been received. All pieces but the last are full, so that a byte is found by its number.
+fn write(to: &dyn Session, receiving: &mut Receiving, bytes: usize) -> Result<(), StoreError> {
     let id = match receiving.id {
         Some(id) => id,
         None => to
@@ -119,7 +120,7 @@ fn write(to: &dyn Session, receiving: &mut Receiving) -> Result<(), StoreError> 
             .int(0)?,
     };
     let mut pieces = receiving.pieces;
-    for bytes in receiving.rest.chunks(PIECE) {
+    for bytes in receiving.rest[..bytes].chunks(PIECE) {
         to.change(
             "INSERT INTO content_piece (content, number, bytes) VALUES ($1, $2, $3)",
             values![id, pieces, bytes],
@@ -127,7 +128,7 @@ fn write(to: &dyn Session, receiving: &mut Receiving) -> Result<(), StoreError> 
         pieces += 1;
     }
     (receiving.id, receiving.pieces) = (Some(id), pieces);
-    receiving.rest.clear();
+    receiving.rest.drain(..bytes);
     Ok(())
 }
 
@@ -143,7 +144,8 @@ pub(super) fn settle(to: &dyn Session, mut receiving: Receiving) -> Result<Conte
         }
         return Ok(Content { id, sha256, bytes });
     }
-    write(to, &mut receiving)?;
+    let rest = receiving.rest.len();
+    write(to, &mut receiving, rest)?;
     // It has been thrown away if it took longer than a day.
     let id = receiving.id.ok_or(StoreError::Absent)?;
     let length = i64::try_from(bytes).unwrap_or(i64::MAX);

@@ -11,7 +11,7 @@ use super::sqlite::{self, File};
 use super::{Place, StoreError};
 
 /// Time limit of a writer that waits for the lock, and of a request that waits for a connection.
-const PATIENCE: Duration = Duration::from_secs(10);
+pub(super) const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Connections at most.
 const CONNECTIONS: u32 = 16;

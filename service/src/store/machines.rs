@@ -1,6 +1,7 @@
 //! Profiles of machines, by their names. Whoever may read anything may read them: programs are made for them.
 
 use super::documents::{Condition, now};
+use super::facts::machine_changed;
 use super::session::{Row, values};
 use super::{Store, StoreError, digest};
 use crate::rights::Act;
@@ -62,6 +63,7 @@ impl Store {
                  ON CONFLICT (name) DO UPDATE SET text = excluded.text, tag = excluded.tag, changed = excluded.changed",
                 values![name, text, &tag, now()],
             )?;
+            machine_changed(to, name)?;
             self.note(to, "machine.put", name, &tag)?;
             Ok((tag, there.is_none()))
         })
@@ -73,6 +75,7 @@ impl Store {
         self.database.write(|to| {
             over.holds(&to.row("SELECT tag FROM machine WHERE name = $1", values![name])?.text(0)?)?;
             to.change("DELETE FROM machine WHERE name = $1", values![name])?;
+            machine_changed(to, name)?;
             self.note(to, "machine.delete", name, "")
         })
     }

@@ -14,6 +14,8 @@ pub(super) const STEPS: &[&str] = &[
     include_str!("migrations/005-jobs.sql"),
     include_str!("migrations/006-users.sql"),
     include_str!("migrations/007-audit.sql"),
+    include_str!("migrations/008-search.sql"),
+    include_str!("migrations/009-stale.sql"),
 ];
 
 /// The steps that are left, where so many have been taken.

@@ -1,19 +1,24 @@
 //! The data of the service, in a database.
 //!
-//! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`; `documents`, `machines`, `programs` and their `contents` are what is kept. Every change is one transaction: it is
-//! there as a whole, or not at all. Not here: what a document says, and HTTP.
+//! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`;
+//! `documents`, `machines`, `programs` and their `contents` are what is kept, `facts` what programs do, `search` finds them,
+//! and `backup` copies all of it. Every change is one transaction: it is there as a whole, or not at all. Not here: what a
+//! document says, and HTTP.
 
 mod accounts;
 mod audit;
+mod backup;
 mod contents;
 mod database;
 mod documents;
+mod facts;
 mod jobs;
 mod logins;
 mod machines;
 mod migrations;
 mod postgres;
 mod programs;
+mod search;
 mod session;
 mod sqlite;
 mod states;
@@ -30,12 +35,15 @@ use crate::rights::{Act, Who};
 
 pub(crate) use self::accounts::{Account, AccountChange};
 pub(crate) use self::audit::{Entry, Filter};
+pub(crate) use self::backup::{backup, restore};
 pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
+pub(crate) use self::facts::{CALLS_ABSENT, Claimed, Computed, Term, calls};
 pub(crate) use self::jobs::{End, Job, Task, TaskResult};
 pub(crate) use self::logins::Token;
 pub(crate) use self::machines::Machine;
 pub(crate) use self::programs::{Change, Details, Once, Revision, Said, Wanted};
+pub(crate) use self::search::{Found, Hit, OfProgram, Range, Shown, Sought};
 pub(crate) use self::states::{State, Step};
 pub(crate) use self::translations::{Outcome, Translation};
 
@@ -105,6 +113,7 @@ impl Store {
     pub(crate) fn open(place: &Place) -> Result<Store, StoreError> {
         let store = Store { database: Arc::new(Database::open(place)?), who: Arc::new(Who::service()) };
         store.tidy()?;
+        store.renew_facts()?;
         Ok(store)
     }
 
@@ -145,6 +154,6 @@ pub(crate) fn digest(pieces: &[&[u8]]) -> String {
 }
 
 /// Bytes in hexadecimal digits.
-fn hex(bytes: &[u8]) -> String {
+pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

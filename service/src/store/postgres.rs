@@ -11,8 +11,9 @@ use std::time::Duration;
 
 use bytes::BytesMut;
 use postgres::error::SqlState;
+use postgres::fallible_iterator::FallibleIterator;
 use postgres::types::{IsNull, ToSql, Type, to_sql_checked};
-use postgres::{Client, Config, NoTls, Statement};
+use postgres::{Client, Config, IsolationLevel, NoTls, Statement};
 use r2d2::ManageConnection;
 
 use super::StoreError;
@@ -66,6 +67,7 @@ impl ManageConnection for Server {
 /// A step in the words of PostgreSQL. Text is compared by its bytes, as SQLite does.
 fn translated(step: &str) -> String {
     step.replace("INTEGER PRIMARY KEY", "BIGINT GENERATED ALWAYS AS IDENTITY PRIMARY KEY")
+        .replace(" WITHOUT ROWID", "")
         .replace(" BLOB ", " BYTEA ")
         .replace(" TEXT ", " TEXT COLLATE \"C\" ")
         .replace(" TEXT,", " TEXT COLLATE \"C\",")
@@ -133,33 +135,86 @@ fn bound(values: &[Value]) -> Vec<&(dyn ToSql + Sync)> {
     values.iter().map(|value| value as &(dyn ToSql + Sync)).collect()
 }
 
+/// Values of a row.
+fn taken_apart(row: &postgres::Row) -> Result<Vec<Value>, postgres::Error> {
+    let columns = row.columns().iter().enumerate();
+    let value = |(at, column): (usize, &postgres::Column)| {
+        Ok(match *column.type_() {
+            Type::BOOL => row.try_get::<_, Option<bool>>(at)?.map_or(Value::Null, Value::Bool),
+            Type::INT4 => {
+                row.try_get::<_, Option<i32>>(at)?.map_or(Value::Null, |number| Value::Int(number.into()))
+            }
+            Type::INT8 => row.try_get::<_, Option<i64>>(at)?.map_or(Value::Null, Value::Int),
+            Type::BYTEA => row.try_get::<_, Option<Vec<u8>>>(at)?.map_or(Value::Null, Value::Bytes),
+            _ => row.try_get::<_, Option<String>>(at)?.map_or(Value::Null, Value::Text),
+        })
+    };
+    columns.map(value).collect()
+}
+
+/// All that a database has at one moment.
+pub(super) struct Moment<'t>(postgres::Transaction<'t>);
+
+impl Moment<'_> {
+    /// The rows of a statement, one after the other.
+    pub(super) fn rows(
+        &mut self,
+        sql: &str,
+        take: &mut dyn FnMut(Vec<Value>) -> Result<(), StoreError>,
+    ) -> Result<(), StoreError> {
+        let none: [&(dyn ToSql + Sync); 0] = [];
+        let mut rows = self.0.query_raw(sql, none)?;
+        while let Some(row) = rows.next()? {
+            take(taken_apart(&row)?)?;
+        }
+        Ok(())
+    }
+}
+
+/// Reads from a server what it has at one moment, if so many migrations have been taken there.
+pub(super) fn at_one_moment<T>(
+    address: &str,
+    patience: Duration,
+    migrations: i64,
+    work: impl FnOnce(&mut Moment) -> Result<T, StoreError>,
+) -> Result<T, StoreError> {
+    let mut link = Server::at(address, patience)?.connect()?;
+    let begin =
+        link.client.build_transaction().isolation_level(IsolationLevel::RepeatableRead).read_only(true);
+    let mut moment = Moment(begin.start()?);
+    let taken = moment.0.query_one("SELECT coalesce(max(number), 0) FROM ncc_migration", &[]);
+    let other = || StoreError::Database("it is no database of ncc".to_owned());
+    let taken: i64 = taken.map_err(|_| other())?.try_get(0)?;
+    if taken != migrations {
+        let words = "it is a database of another version of ncc: begin `ncc serve` of this one on it, then it has this form";
+        return Err(StoreError::Database(words.to_owned()));
+    }
+    work(&mut moment)
+}
+
 impl Session for Open<'_> {
     fn rows(&self, sql: &str, values: &[Value]) -> Result<Vec<Row>, StoreError> {
         let mut link = self.0.borrow_mut();
         let statement = Open::statement(&mut link, sql)?;
         let rows = link.client.query(&statement, &bound(&values[..statement.params().len()]))?;
-        let row = |row: &postgres::Row| {
-            let columns = row.columns().iter().enumerate();
-            let value = |(at, column): (usize, &postgres::Column)| {
-                Ok::<_, postgres::Error>(match *column.type_() {
-                    Type::BOOL => row.try_get::<_, Option<bool>>(at)?.map_or(Value::Null, Value::Bool),
-                    Type::INT4 => row
-                        .try_get::<_, Option<i32>>(at)?
-                        .map_or(Value::Null, |number| Value::Int(number.into())),
-                    Type::INT8 => row.try_get::<_, Option<i64>>(at)?.map_or(Value::Null, Value::Int),
-                    Type::BYTEA => row.try_get::<_, Option<Vec<u8>>>(at)?.map_or(Value::Null, Value::Bytes),
-                    _ => row.try_get::<_, Option<String>>(at)?.map_or(Value::Null, Value::Text),
-                })
-            };
-            Ok::<_, StoreError>(Row(columns.map(value).collect::<Result<_, _>>()?))
-        };
-        rows.iter().map(row).collect()
+        rows.iter().map(|row| Ok(Row(taken_apart(row)?))).collect()
     }
 
     fn change(&self, sql: &str, values: &[Value]) -> Result<u64, StoreError> {
         let mut link = self.0.borrow_mut();
         let statement = Open::statement(&mut link, sql)?;
         Ok(link.client.execute(&statement, &bound(&values[..statement.params().len()]))?)
+    }
+
+    fn with_numbers(&self) -> &'static str {
+        " OVERRIDING SYSTEM VALUE"
+    }
+
+    fn count_on(&self, table: &str, column: &str) -> Result<(), StoreError> {
+        let sql = format!(
+            "SELECT setval(pg_get_serial_sequence('{table}', '{column}'), max({column})) FROM {table} HAVING max({column}) > 0"
+        );
+        self.rows(&sql, &[]).map(|_| ())
     }
 }
 

@@ -8,6 +8,7 @@ use utoipa::ToSchema;
 
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
+use super::facts::changed;
 use super::session::{Row, Session, values};
 use super::{Condition, Store, StoreError};
 use crate::rights::{Act, Role};
@@ -250,6 +251,15 @@ impl Store {
         self.database.read(|from| self.head(from, id, Act::Read, &Condition::Any))
     }
 
+    /// The program in a folder under a name, if there is one.
+    pub(crate) fn program_at(&self, folder: &str, name: &str) -> Result<Option<Revision>, StoreError> {
+        self.database.read(|from| {
+            let sql = "SELECT id FROM program WHERE folder = $1 AND name = $2 AND NOT is_deleted";
+            let Some(mut found) = from.maybe_row(sql, values![folder, name])? else { return Ok(None) };
+            self.head(from, &found.text(0)?, Act::Read, &Condition::Any).map(Some)
+        })
+    }
+
     /// A program as it was.
     pub(crate) fn revision(&self, id: &str, number: i64) -> Result<Revision, StoreError> {
         self.database.read(|from| {
@@ -377,11 +387,27 @@ pub(super) fn holds_in(folder: &str, account: &str, rank: &str) -> String {
     )
 }
 
-/// Reads revisions, with their contents.
-const REVISION: &str = "SELECT r.program, r.number, r.folder, r.name, r.dialect, r.machine, r.tags, r.change, r.author, \
-                        r.message, r.made, c.id, c.sha256, c.bytes FROM revision r JOIN content c ON c.id = r.content";
+/// Columns of a revision `r` with its content `c`.
+macro_rules! columns {
+    () => {
+        "r.program, r.number, r.folder, r.name, r.dialect, r.machine, r.tags, r.change, r.author, r.message, r.made, c.id, \
+         c.sha256, c.bytes"
+    };
+}
 
-fn read(mut row: Row) -> Result<Revision, StoreError> {
+/// Columns of a revision `r` with its content `c`; [`read`] reads them.
+pub(super) const COLUMNS: &str = columns!();
+
+/// Reads revisions, with their contents.
+const REVISION: &str = concat!("SELECT ", columns!(), " FROM revision r JOIN content c ON c.id = r.content");
+
+/// A revision from a row that begins with [`COLUMNS`].
+pub(super) fn read(row: Row) -> Result<Revision, StoreError> {
+    read_from(&mut { row })
+}
+
+/// The same; what follows these columns stays in the row.
+pub(super) fn read_from(row: &mut Row) -> Result<Revision, StoreError> {
     let change = row.text(7)?;
     let unknown = || StoreError::Database(format!("no change is called {change:?}"));
     Ok(Revision {
@@ -451,6 +477,8 @@ fn insert(
     for tag in &details.tags {
         to.change("INSERT INTO program_tag (program, tag) VALUES ($1, $2)", values![program, tag])?;
     }
+    let place = [&details.folder, &details.name, &details.machine].map(String::as_str);
+    changed(to, program, Some(place).filter(|_| change != Change::Deleted))?;
     Ok(Revision {
         program: program.to_owned(),
         number,

@@ -132,6 +132,15 @@ impl Row {
         }
     }
 
+    /// Bytes, or nothing.
+    pub(super) fn maybe_bytes(&mut self, column: usize) -> Result<Option<Vec<u8>>, StoreError> {
+        match self.take(column) {
+            Value::Null => Ok(None),
+            Value::Bytes(bytes) => Ok(Some(bytes)),
+            other => Row::wrong(column, &other),
+        }
+    }
+
     /// Bytes.
     pub(super) fn bytes(&mut self, column: usize) -> Result<Vec<u8>, StoreError> {
         match self.take(column) {
@@ -148,6 +157,12 @@ pub(super) trait Session {
 
     /// Carries a statement out; gives how many rows it has changed.
     fn change(&self, sql: &str, values: &[Value]) -> Result<u64, StoreError>;
+
+    /// The words with which a new row has the number that a statement says, in a column that the database counts up.
+    fn with_numbers(&self) -> &'static str;
+
+    /// Has the database count a column up from its greatest number on. Names are those of the schema.
+    fn count_on(&self, table: &str, column: &str) -> Result<(), StoreError>;
 }
 
 impl dyn Session + '_ {

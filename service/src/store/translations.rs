@@ -166,6 +166,14 @@ impl Store {
         })
     }
 
+    /// Notes that a translation is stale, so that it is found as such.
+    pub(crate) fn note_stale(&self, id: &str) -> Result<(), StoreError> {
+        self.database.write(|to| {
+            to.change("UPDATE translation SET is_stale = TRUE WHERE id = $1", values![id])?;
+            Ok(())
+        })
+    }
+
     /// A result of a translation; none of a certificate before the first request for it.
     pub(crate) fn outcome(&self, id: &str, outcome: Outcome) -> Result<Option<Content>, StoreError> {
         self.database.read(|from| {

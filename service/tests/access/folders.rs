@@ -139,6 +139,12 @@ fn lists_have_what_may_be_read_and_full_pages() {
     }
     let found = ben.get(&server, &format!("/api/v1/translations?program={}", of("shafts"))).json();
     assert_eq!(found["translations"], json!([]));
+    for query in
+        ["", "under=shafts", "folder=shafts", "dialect=mach9", "text=shafts", "tool=1", "state=draft"]
+    {
+        let found = ben.get(&server, &format!("/api/v1/search?{query}"));
+        assert!(found.status == 200 && !found.text().contains(&of("shafts")), "{query}: {}", found.text());
+    }
     // Nor does a cursor that is in another folder tell of it.
     assert_eq!(ben.get(&server, &format!("/api/v1/programs?after={}", of("shafts"))).status, 200);
 }

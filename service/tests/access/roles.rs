@@ -100,6 +100,8 @@ fn programs() -> Vec<Row> {
             200,
             404,
         ),
+        row("GET", "/api/v1/programs/{program}/facts", "", "reader", 200, 404),
+        row("GET", "/api/v1/search", "", "none", 200, 0),
         row("GET", "/api/v1/translations", "", "none", 200, 0),
         with(row("POST", "/api/v1/translations", "", "editor", 200, 403), Body::Json(translation)),
         row("GET", "/api/v1/translations/{translation}", "", "reader", 200, 404),
