@@ -116,7 +116,7 @@ fn faults(wrong: &[ProfileError], text: &str) -> Value {
 
 /// Gives a profile, as its owner wrote it.
 #[utoipa::path(get, path = "/api/v1/machines/{name}", tag = TAG,
-    params(("name" = String, Path), ("If-None-Match" = Option<String>, Header)),
+    params(("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"), ("If-None-Match" = Option<String>, Header)),
     responses(
         (status = 200, content((String = "application/toml"), (Value = "application/json"))),
         (status = 304),
@@ -143,7 +143,7 @@ async fn read(
 
 /// Keeps a profile, or a machine.json of the case study.
 #[utoipa::path(put, path = "/api/v1/machines/{name}", tag = TAG,
-    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    params(("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"), ("If-Match" = Option<String>, Header)),
     request_body(content((String = "application/toml"), (Value = "application/json"))),
     responses(
         (status = 201, headers(("Location" = String), ("ETag" = String))),
@@ -190,7 +190,7 @@ async fn keep(
 
 /// Deletes a profile.
 #[utoipa::path(delete, path = "/api/v1/machines/{name}", tag = TAG,
-    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    params(("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"), ("If-Match" = Option<String>, Header)),
     responses((status = 204)))]
 async fn delete(
     State(shared): State<Arc<Shared>>,

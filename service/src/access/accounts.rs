@@ -112,7 +112,7 @@ pub(super) async fn create(
 #[utoipa::path(get, path = "/api/v1/accounts", tag = TAG,
     params(
         ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Accounts)))]
 pub(super) async fn list(

@@ -113,14 +113,14 @@ fn moment(query: &mut Query, name: &str) -> Result<Option<i64>, Problem> {
 /// Gives the audit, the newest entry first; as a table (CSV), the oldest first.
 #[utoipa::path(get, path = "/api/v1/audit", tag = "accounts",
     params(
-        ("form" = Option<String>, Query, description = "`json`, or `csv`"),
+        ("form" = Option<String>, Query, pattern = "^(json|csv)$", description = "`json`, or `csv`"),
         ("account" = Option<String>, Query, description = "Entries of an account"),
         ("subject" = Option<String>, Query, description = "Entries about a thing"),
         ("action" = Option<String>, Query, description = "Entries of an action"),
         ("from" = Option<String>, Query, description = "Entries at this moment and later: `2026-01-31T12:00:00Z`"),
         ("until" = Option<String>, Query, description = "Entries before this moment"),
         ("before" = Option<i64>, Query, description = "The last one of the page before: its `next`; not for a table"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it; not for a table"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it; not for a table"),
     ),
     responses((status = 200, content((Audit = "application/json"), (String = "text/csv; charset=utf-8; header=present")))))]
 pub(super) async fn read(

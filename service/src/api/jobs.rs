@@ -193,7 +193,7 @@ pub(super) async fn create(
 #[utoipa::path(get, path = "/api/v1/jobs", tag = TAG,
     params(
         ("before" = Option<String>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Jobs)))]
 pub(super) async fn list(
@@ -250,7 +250,7 @@ pub(super) async fn cancel(
     params(
         ("id" = String, Path),
         ("after" = Option<i64>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Results)))]
 pub(super) async fn results(
@@ -294,7 +294,7 @@ struct Watching {
 /// Gives the progress of a job as it goes on: server-sent events `progress`, and `end` at last.
 #[utoipa::path(get, path = "/api/v1/jobs/{id}/events", tag = TAG,
     params(("id" = String, Path)),
-    responses((status = 200, body = String, content_type = "text/event-stream")))]
+    responses((status = 200, description = "Events, whose data is a job", content_type = "text/event-stream")))]
 pub(super) async fn events(
     State(shared): State<Arc<Shared>>,
     caller: Caller,

@@ -187,7 +187,7 @@ fn make(store: &Store, found: &Found, asked: &Asked, output: Output, most: u64) 
 #[utoipa::path(get, path = "/api/v1/programs/{id}/outputs/{what}", tag = "programs",
     params(
         ("id" = String, Path),
-        ("what" = Output, Path),
+        ("what" = inline(Output), Path),
         ("revision" = Option<i64>, Query, minimum = 1, description = "A revision; the latest without it"),
         ("dialect" = Option<String>, Query, description = "Its dialect; that kept with it without this"),
         ("machine" = Option<String>, Query, description = "The machine; that kept with it without this"),
@@ -195,7 +195,7 @@ fn make(store: &Store, found: &Found, asked: &Asked, output: Output, most: u64) 
         ("assume_milling" = Option<bool>, Query, description = "It is for a mill, whatever it looks like"),
         ("model" = Option<String>, Query, description = "The model of times: `constant`, `trapezoid`, …"),
         ("start" = Option<String>, Query, description = "Position before the first block: `X-9,Y15.588,Z3`, mm"),
-        ("tool_change_on" = Option<String>, Query, description = "The function with the time of a tool change: `select` or `change`"),
+        ("tool_change_on" = Option<String>, Query, pattern = "^(select|change)$", description = "The function with the time of a tool change: `select` or `change`"),
         ("If-None-Match" = Option<String>, Header),
     ),
     responses(

@@ -110,7 +110,7 @@ struct Programs {
         ("machine" = Option<String>, Query, description = "The machine that is kept with it"),
         ("deleted" = Option<bool>, Query, description = "The deleted ones"),
         ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Programs)))]
 pub(super) async fn list(

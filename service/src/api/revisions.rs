@@ -32,7 +32,7 @@ struct Revisions {
     params(
         ("id" = String, Path),
         ("before" = Option<i64>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Revisions)))]
 pub(super) async fn list(

@@ -279,7 +279,7 @@ fn block_number(line: &str) -> Option<String> {
         ("state" = Option<Approval>, Query, description = "The state of one of its translations"),
         ("stale" = Option<bool>, Query, description = "Whether one of its translations is stale"),
         ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = FoundPrograms)))]
 pub(super) async fn search(

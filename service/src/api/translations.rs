@@ -124,9 +124,9 @@ pub(super) async fn create(
 #[utoipa::path(get, path = "/api/v1/translations", tag = TAG,
     params(
         ("program" = Option<String>, Query, description = "Those of a program"),
-        ("state" = Option<Wanted>, Query, description = "Those in a state"),
+        ("state" = inline(Option<Wanted>), Query, description = "Those in a state"),
         ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Translations)))]
 pub(super) async fn list(
@@ -172,7 +172,7 @@ pub(super) async fn read(
 /// `output` is its text, `report` the diagnostics, `map` the source line of each line of the output, `certificate` the verdict
 /// of the comparison of both programs.
 #[utoipa::path(get, path = "/api/v1/translations/{id}/{what}", tag = TAG,
-    params(("id" = String, Path), ("what" = Outcome, Path), ("If-None-Match" = Option<String>, Header)),
+    params(("id" = String, Path), ("what" = inline(Outcome), Path), ("If-None-Match" = Option<String>, Header)),
     responses(
         (status = 200, headers(("ETag" = String)), content((String = "text/plain"), (Value = "application/json"))),
         (status = 304),

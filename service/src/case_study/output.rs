@@ -42,8 +42,8 @@ fn name_and_query(path: &str, query: Option<&str>) -> Result<(String, String), P
 /// Gives an output of a stored document: its rows of times (CSV), or its list of canonical functions.
 #[utoipa::path(get, path = "/output/{name}", tag = "case study",
     params(
-        ("name" = String, Path),
-        ("type" = Option<Type>, Query, description = "`csv` without it"),
+        ("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"),
+        ("type" = inline(Option<Type>), Query, description = "`csv` without it"),
         ("If-None-Match" = Option<String>, Header),
     ),
     responses(

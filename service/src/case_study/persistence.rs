@@ -55,7 +55,7 @@ pub(super) struct Documents {
 #[utoipa::path(get, path = "/persistence", tag = TAG,
     params(
         ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Documents)))]
 pub(super) async fn list(
@@ -87,7 +87,7 @@ fn sent(headers: &HeaderMap, name: &str, body: &[u8]) -> Result<(Parts, [String;
 
 /// Stores a payload under a name that is free.
 #[utoipa::path(post, path = "/persistence/{name}", tag = TAG,
-    params(("name" = String, Path)),
+    params(("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$")),
     request_body(content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))),
     responses((status = 201, headers(("Location" = String), ("ETag" = String)))))]
 pub(super) async fn create(
@@ -113,7 +113,7 @@ pub(super) async fn create(
 
 /// Stores a payload in the place of another one.
 #[utoipa::path(put, path = "/persistence/{name}", tag = TAG,
-    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    params(("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"), ("If-Match" = Option<String>, Header)),
     request_body(content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))),
     responses((status = 204, headers(("ETag" = String)))))]
 pub(super) async fn update(
@@ -139,7 +139,7 @@ pub(super) async fn update(
 
 /// Deletes a document.
 #[utoipa::path(delete, path = "/persistence/{name}", tag = TAG,
-    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    params(("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"), ("If-Match" = Option<String>, Header)),
     responses((status = 204)))]
 pub(super) async fn delete(
     State(shared): State<Arc<Shared>>,
@@ -157,9 +157,9 @@ pub(super) async fn delete(
 /// Gives a payload.
 #[utoipa::path(get, path = "/persistence/{name}", tag = TAG,
     params(
-        ("name" = String, Path),
-        ("form" = Option<Form>, Query),
-        ("stage" = Option<String>, Query, description = "`before` or `after` processing"),
+        ("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"),
+        ("form" = inline(Option<Form>), Query, description = "The stored form, or that of the case study, without it"),
+        ("stage" = Option<String>, Query, pattern = "^(before|after)$", description = "Before or after processing"),
         ("If-None-Match" = Option<String>, Header),
     ),
     responses((status = 200, headers(("ETag" = String)), content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))), (status = 304)))]

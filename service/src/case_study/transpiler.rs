@@ -30,7 +30,7 @@ const TAG: &str = "case study";
 #[utoipa::path(get, path = "/transpiler", tag = TAG,
     params(
         ("after" = Option<String>, Query, description = "The last one of the page before: its `next`"),
-        ("limit" = Option<u32>, Query, description = "Entries at most, up to 1000; 100 without it"),
+        ("limit" = Option<u64>, Query, maximum = 4294967295u64, description = "Entries at most, up to 1000; 100 without it"),
     ),
     responses((status = 200, body = Documents)))]
 pub(super) async fn list(
@@ -43,7 +43,7 @@ pub(super) async fn list(
 
 /// Deletes a document.
 #[utoipa::path(delete, path = "/transpiler/{name}", tag = TAG,
-    params(("name" = String, Path), ("If-Match" = Option<String>, Header)),
+    params(("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"), ("If-Match" = Option<String>, Header)),
     responses((status = 204)))]
 pub(super) async fn delete(
     shared: State<Arc<Shared>>,
@@ -110,15 +110,15 @@ fn program(headers: &HeaderMap, body: Result<Bytes, BytesRejection>, most: u64) 
 /// Processes a program, and stores its document under a name that is free.
 #[utoipa::path(post, path = "/transpiler/{name}", tag = TAG,
     params(
-        ("name" = String, Path),
+        ("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"),
         ("dialect" = Option<String>, Query, description = "Its dialect; it is recognised without this"),
         ("machine" = Option<String>, Query, description = "Its machine"),
         ("option" = Option<Vec<String>>, Query, description = "Settings of the control: `NAME=VALUE`"),
         ("start" = Option<String>, Query, description = "Position before the first block: `X-9,Y15.588,Z3`, mm"),
         ("start_time" = Option<f64>, Query, description = "Time stamp before the first block, s"),
         ("model" = Option<String>, Query, description = "The model of times"),
-        ("tool_change_on" = Option<String>, Query, description = "The function with the time of a tool change: `select` or `change`"),
-        ("units" = Option<String>, Query, description = "Units at power-on: `mm` or `inch`"),
+        ("tool_change_on" = Option<String>, Query, pattern = "^(select|change)$", description = "The function with the time of a tool change: `select` or `change`"),
+        ("units" = Option<String>, Query, pattern = "^(mm|inch)$", description = "Units at power-on: `mm` or `inch`"),
         ("assume_milling" = Option<bool>, Query, description = "It is for a mill, whatever it looks like"),
     ),
     request_body(content((String = "text/plain"), (Vec<u8> = "application/octet-stream")),
@@ -152,15 +152,15 @@ pub(super) async fn create(
 /// that one, unless the address names others.
 #[utoipa::path(put, path = "/transpiler/{name}", tag = TAG,
     params(
-        ("name" = String, Path),
+        ("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"),
         ("dialect" = Option<String>, Query, description = "Its dialect; that of the stored document without this"),
         ("machine" = Option<String>, Query, description = "Its machine; that of the stored document without this"),
         ("option" = Option<Vec<String>>, Query, description = "Settings of the control: `NAME=VALUE`"),
         ("start" = Option<String>, Query, description = "Position before the first block: `X-9,Y15.588,Z3`, mm"),
         ("start_time" = Option<f64>, Query, description = "Time stamp before the first block, s"),
         ("model" = Option<String>, Query, description = "The model of times"),
-        ("tool_change_on" = Option<String>, Query, description = "The function with the time of a tool change: `select` or `change`"),
-        ("units" = Option<String>, Query, description = "Units at power-on: `mm` or `inch`"),
+        ("tool_change_on" = Option<String>, Query, pattern = "^(select|change)$", description = "The function with the time of a tool change: `select` or `change`"),
+        ("units" = Option<String>, Query, pattern = "^(mm|inch)$", description = "Units at power-on: `mm` or `inch`"),
         ("assume_milling" = Option<bool>, Query, description = "It is for a mill, whatever it looks like"),
         ("If-Match" = Option<String>, Header),
     ),
@@ -200,9 +200,9 @@ pub(super) async fn update(
 /// Gives the payload.
 #[utoipa::path(get, path = "/transpiler/{name}", tag = TAG,
     params(
-        ("name" = String, Path),
-        ("form" = Option<Form>, Query),
-        ("stage" = Option<String>, Query, description = "`before` or `after` processing"),
+        ("name" = String, Path, min_length = 1, max_length = 255, pattern = "^[^/\\x00-\\x1F\\x7F-\\x9F]+$"),
+        ("form" = inline(Option<Form>), Query, description = "The stored form, or that of the case study, without it"),
+        ("stage" = Option<String>, Query, pattern = "^(before|after)$", description = "Before or after processing"),
         ("If-None-Match" = Option<String>, Header),
     ),
     responses((status = 200, headers(("ETag" = String)), content((Value = "application/json"), (Whole = "application/vnd.ncc.document+json"))), (status = 304)))]

@@ -18,7 +18,7 @@ use utoipa::openapi::path::Operation;
 use utoipa::openapi::security::{
     ApiKey, ApiKeyValue, HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme,
 };
-use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, ResponseBuilder};
+use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Required, ResponseBuilder};
 use utoipa::{PartialSchema, ToSchema};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_swagger_ui::{Config, SwaggerUi};
@@ -85,6 +85,12 @@ fn describe(of: &mut OpenApi) {
     of.security = Some(vec![none, token, session]);
     for operation in of.paths.paths.values_mut().flat_map(operations) {
         operation.responses.responses.insert("default".to_owned(), RefOr::T(error.clone()));
+        // An empty body is an empty text.
+        if let Some(RefOr::T(body)) = operation.request_body.as_mut()
+            && body.content.contains_key("text/plain")
+        {
+            body.required = Some(Required::False);
+        }
     }
 }
 
