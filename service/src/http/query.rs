@@ -26,9 +26,14 @@ impl Query {
     /// # Errors
     /// It stands there twice.
     pub(crate) fn one(&mut self, name: &str) -> Result<Option<String>, Problem> {
+        Ok(self.stated(name)?.filter(|value| !value.is_empty()))
+    }
+
+    /// The value of a name, which may be empty.
+    fn stated(&mut self, name: &str) -> Result<Option<String>, Problem> {
         let mut all = self.all(name);
         match all.len() {
-            0 | 1 => Ok(all.pop().filter(|value| !value.is_empty())),
+            0 | 1 => Ok(all.pop()),
             _ => Err(Problem::request(format!("`{name}` stands there {} times", all.len()))),
         }
     }
@@ -38,7 +43,7 @@ impl Query {
     /// # Errors
     /// It has another value, or stands there twice.
     pub(crate) fn among<T: Copy>(&mut self, name: &str, words: &[(&str, T)]) -> Result<Option<T>, Problem> {
-        let Some(value) = self.one(name)? else { return Ok(None) };
+        let Some(value) = self.stated(name)? else { return Ok(None) };
         let found = words.iter().find(|(word, _)| *word == value);
         let all = || words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(", ");
         let found = found.ok_or_else(|| Problem::request(format!("`{name}` is one of: {}", all())))?;
@@ -50,7 +55,7 @@ impl Query {
     /// # Errors
     /// It is no such number, or stands there twice.
     pub(crate) fn number<T: FromStr>(&mut self, name: &str) -> Result<Option<T>, Problem> {
-        let value = self.one(name)?;
+        let value = self.stated(name)?;
         let number = value.map(|value| value.parse().map_err(|_| value));
         number.transpose().map_err(|value| Problem::request(format!("`{name}` takes no `{value}`")))
     }
@@ -104,6 +109,8 @@ mod tests {
         assert!(query.end("dialect").is_err());
         assert!(Query::of(Some("a=1&a=2")).one("a").is_err());
         assert!(Query::of(Some("a=x")).number::<u32>("a").is_err());
+        assert!(Query::of(Some("a=")).number::<u32>("a").is_err());
+        assert!(Query::of(Some("a=")).among("a", &[("y", ())]).is_err());
         assert!(Query::of(Some("a=x")).among("a", &[("y", ())]).is_err());
         assert!(Query::of(Some("option=a")).pairs("option").is_err());
         assert!(Query::of(None).end("").is_ok());
