@@ -30,6 +30,7 @@ use crate::http::connections::Peer;
 use crate::http::query::Query;
 use crate::http::{self, Problem, body};
 use crate::rights::{Right, Via, Who};
+use crate::store::LONGEST;
 
 /// Group of the addresses in the description.
 const TAG: &str = "accounts";
@@ -151,7 +152,8 @@ pub(super) async fn login(
         .store(&Caller::of(who), move |store| Ok(store.log_in(&name, &digest, before.as_deref(), idle)?))
         .await?;
     let mut answer = told(Some(&user), true, &rights, &secrets::csrf(&secret));
-    set_cookie(&mut answer, &secrets::cookie(&secret, idle, shared.guard.is_secure));
+    // The store ends a session that is not used earlier than the browser.
+    set_cookie(&mut answer, &secrets::cookie(&secret, LONGEST, shared.guard.is_secure));
     Ok(answer)
 }
 

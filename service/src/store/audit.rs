@@ -213,3 +213,24 @@ impl Store {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Who changes an entry and computes its digest anew breaks the next one.
+    #[test]
+    fn an_entry_rests_on_the_one_before() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let store = Store::open(&super::super::Place::File(folder.path().join("a.sqlite"))).expect("a store");
+        for subject in ["a", "b", "c"] {
+            store.note_alone("test", subject, "").expect("an entry");
+        }
+        let all = store.audit_after(&Filter::default(), 0, 10).expect("entries");
+        let [first, second, third] = all.as_slice() else { panic!("{all:?}") };
+        assert_eq!(second.digest_after(&first.digest), second.digest);
+        let changed = Entry { subject: "x".to_owned(), ..second.clone() };
+        assert_ne!(third.digest_after(&changed.digest_after(&first.digest)), third.digest);
+        assert_eq!(store.follow_chain().expect("a chain").entries, 3);
+    }
+}

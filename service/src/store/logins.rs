@@ -10,7 +10,7 @@ use crate::rights::{Right, Scope, Via, Who};
 const MARKED: i64 = 60;
 
 /// Seconds after which a session ends, however much it is used.
-const LONGEST: i64 = 7 * 86_400;
+pub(crate) const LONGEST: i64 = 7 * 86_400;
 
 /// A token without its secret.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -40,7 +40,7 @@ pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::facts::{CALLS_ABSENT, Claimed, Computed, Term, calls};
 pub(crate) use self::jobs::{End, Job, Task, TaskResult};
-pub(crate) use self::logins::Token;
+pub(crate) use self::logins::{LONGEST, Token};
 pub(crate) use self::machines::Machine;
 pub(crate) use self::programs::{Change, Details, Once, Revision, Said, Wanted};
 pub(crate) use self::search::{Found, Hit, OfProgram, Range, Shown, Sought};

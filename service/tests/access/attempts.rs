@@ -22,7 +22,7 @@ fn a_login_begins_a_session_and_a_logout_ends_it() {
     assert_eq!(out, json!({ "user": null, "login": "needed", "rights": [], "csrf": "" }));
     let answer = log_in(&server, "root", PASSWORD);
     let cookie = answer.header("set-cookie").to_owned();
-    for part in ["; HttpOnly", "; SameSite=Strict", "; Path=/", "; Max-Age=43200"] {
+    for part in ["; HttpOnly", "; SameSite=Strict", "; Path=/", "; Max-Age=604800"] {
         assert!(cookie.contains(part), "{cookie}");
     }
     assert!(!cookie.contains("Secure") && !cookie.contains("Domain"), "{cookie}");

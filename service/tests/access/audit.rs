@@ -111,6 +111,7 @@ fn the_audit_is_filtered_and_comes_page_by_page() {
         .map(|number| make(&server, &ben, &format!("/api/v1/programs?name={number}"), &PROGRAM.into()))
         .collect();
     assert_eq!(entries(&server, &root, "&account=ben&action=program.created").len(), 5);
+    assert_eq!(entries(&server, &root, "&account=root&action=program.created").len(), 0);
     assert_eq!(entries(&server, &root, &format!("&subject={}", programs[2])).len(), 1);
     assert_eq!(entries(&server, &root, "&from=2099-01-01T00:00:00Z").len(), 0);
     let all = entries(&server, &root, "&until=2099-01-01T00:00:00Z&from=2020-01-01T00:00:00Z");

@@ -108,7 +108,7 @@ fn a_server_with_tls_answers_those_who_know_it() {
     let own = format!("Origin: https://{host}\r\n");
     let answer = ask(&server, &pair, "ncc.example", &asked(&own)).expect("an answer");
     assert!(
-        answer.starts_with("HTTP/1.1 200") && answer.contains("Path=/; Max-Age=43200; Secure\r\n"),
+        answer.starts_with("HTTP/1.1 200") && answer.contains("Path=/; Max-Age=604800; Secure\r\n"),
         "{answer}"
     );
     let plain = format!("Origin: http://{host}\r\n");
