@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use ncc_service::Limits;
 use serde_json::Value;
 
-use crate::client::{Answer, Server, read_answer};
+use crate::client::{Answer, Server};
 use crate::limits::MOVES;
 
 const PART: &str = "%\nO1\nG21 G17 G90 G94 G40 G54\nT1 M6\nS3000 M3\nG43 H1 G0 X10. Y10. Z5.\nG1 Z-2. F200.\nG0 Z5.\nM30\n%\n";
@@ -26,7 +26,7 @@ impl Server {
     }
 
     fn run(&self, room: &str, request: &str) -> Answer {
-        self.ask("POST", &format!("/api/v1/engine/{room}/run"), &[], request.as_bytes())
+        self.json("POST", &format!("/api/v1/engine/{room}/run"), request.as_bytes())
     }
 }
 
@@ -206,13 +206,16 @@ fn work_in_a_room_has_its_time() {
     server.file("a", "part.nc", PART.as_bytes());
     let request = r#"{ "verb": "simulate", "file": "long.nc", "from": "fanuc" }"#;
     let begun = Instant::now();
-    let mut stream = server.send("POST", "/api/v1/engine/a/run", &[], request.as_bytes());
+    let media = [("Content-Type", "application/json")];
+    let stream = server.send("POST", "/api/v1/engine/a/run", &media, request.as_bytes());
     thread::sleep(Duration::from_millis(300));
     drop(stream);
     assert_eq!(check(&server, "a", "part.nc").0, 0);
     assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
-    stream = server.send("POST", "/api/v1/engine/a/run", &[], b"{");
-    assert_eq!(read(&read_answer(&mut stream)).0, 2);
+    for (request, status) in [("{", 422), ("[]", 422), ("{}", 200)] {
+        assert_eq!(server.run("a", request).status, status, "{request}");
+    }
+    assert_eq!(server.ask("POST", "/api/v1/engine/a/run", &[], b"{}").status, 415);
 }
 
 #[test]
