@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use ncc_service::Limits;
 use serde_json::Value;
 
+use crate::access::{admin, limits, with_rights};
 use crate::client::{Answer, Server};
 use crate::limits::MOVES;
 
@@ -140,6 +141,39 @@ fn calls_find_the_files_of_the_room_alone() {
     assert_eq!(beside(&part), 204);
     assert!(check(&server, "a", "part.nc").1.contains("NC0811"));
     assert_eq!(beside("none"), 404);
+}
+
+/// A room is its user's; the page is there for everybody, and its engines are not.
+#[test]
+fn nobody_uses_the_room_of_another() {
+    let server = Server::limited(limits());
+    let root = admin(&server);
+    let [ana, bob] = ["ana", "bob"].map(|name| with_rights(&server, &root, name, &[(name, "editor")]));
+    let nothing = Value::Null;
+    assert_eq!(ana.ask(&server, "PUT", "/api/v1/engine/a", &nothing).status, 204);
+    let file = "/api/v1/engine/a/files/part.nc";
+    assert_eq!(ana.ask(&server, "PUT", file, &PART.into()).status, 204);
+    let check = serde_json::json!({ "verb": "check", "file": "part.nc", "from": "fanuc" });
+    let code = |answer: &Answer| read(answer).0;
+    assert_eq!(code(&ana.ask(&server, "POST", "/api/v1/engine/a/run", &check)), 0);
+    assert_eq!(bob.ask(&server, "PUT", file, &PART.into()).status, 404);
+    assert_eq!(bob.ask(&server, "POST", "/api/v1/engine/a/run", &check).status, 404);
+    // Bob's room of this name is another one.
+    assert_eq!(bob.ask(&server, "PUT", "/api/v1/engine/a", &nothing).status, 204);
+    assert_ne!(code(&bob.ask(&server, "POST", "/api/v1/engine/a/run", &check)), 0);
+    assert_eq!(bob.ask(&server, "DELETE", "/api/v1/engine/a", &nothing).status, 204);
+    assert_eq!(code(&ana.ask(&server, "POST", "/api/v1/engine/a/run", &check)), 0);
+    // A program of a folder that bob may not read is not there for his calls.
+    let made = ana.ask(&server, "POST", "/api/v1/programs?folder=ana&name=sub.nc", &CALLED.into()).json();
+    let called = format!("/api/v1/engine/a/called/{}", made["id"].as_str().expect("an id"));
+    assert_eq!(bob.ask(&server, "PUT", "/api/v1/engine/a", &nothing).status, 204);
+    assert_eq!(ana.ask(&server, "PUT", &called, &nothing).status, 204);
+    assert_eq!(bob.ask(&server, "PUT", &called, &nothing).status, 404);
+    let folders = |of: &crate::access::User| of.get(&server, "/api/v1/folders").json()["folders"].clone();
+    assert_eq!(folders(&ana), serde_json::json!([{ "folder": "ana", "programs": 1 }]));
+    assert_eq!(folders(&bob), serde_json::json!([]));
+    assert_eq!((server.get("/").status, server.get("/studio.js").status), (200, 200));
+    assert_eq!(server.room("a").status, 401);
 }
 
 #[test]
