@@ -401,9 +401,9 @@ function guarded(state) {
   };
 }
 
-async function logIn(own, password = "right") {
+async function logIn(own, password = "right", user = "ana") {
   await own.locator("#login").waitFor();
-  await own.getByLabel("User").fill("ana");
+  await own.getByLabel("User").fill(user);
   await own.getByLabel("Password").fill(password);
   await own.keyboard.press("Enter");
 }
@@ -436,6 +436,37 @@ serves("a login is asked for, a session that ends loses no text, and one logs ou
   await own.click("#log-out");
   await own.locator("#login").waitFor();
   assert.doesNotMatch(await content(own), /EDITED/);
+});
+
+serves("accounts of the service log in, and what their rights do not include is told", {
+  stored: async (server) => {
+    await square(server);
+    server.account("root", "admin", "the first account");
+    server.account("rita", "reader", "a long password");
+    server.account("ed", "editor", "another password");
+  },
+  early: async (own) => {
+    await own.locator("#login").waitFor();
+    await own.waitForTimeout(300);
+    await logIn(own, "a long password", "rita");
+  },
+}, async (own) => {
+  await take(own, "square.nc");
+  await type(own, EDITED);
+  await own.keyboard.press("Control+s");
+  await tells(own, "You may not do this.");
+  assert.equal(await value(own, "#save-state"), "Not saved");
+  await own.click("#log-out");
+  await logIn(own, "another password", "ed");
+  await own.locator("#login").waitFor({ state: "detached" });
+  await ready(own);
+  await take(own, "square.nc");
+  // What rita typed is hers.
+  assert.match(await content(own), /\(SQUARE\)/);
+  await type(own, THEIRS);
+  await own.keyboard.press("Control+s");
+  await tells(own, "Saved as revision 2");
+  assert.match(await value(own, "#server-about"), /revision 2 · ed/);
 });
 
 serves("a server that is gone is told, and nothing typed is lost", { stored: square }, async (own, server, context) => {
