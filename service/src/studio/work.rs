@@ -139,9 +139,9 @@ pub(super) async fn run(
     request: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
+    let room: Arc<Room> = shared.rooms.of(caller.name(), &room)?;
     let request = bounded(body::json(&headers, request)?, shared.rooms.moves())?;
     shared.guard.takes_work(&caller)?;
-    let room: Arc<Room> = shared.rooms.of(caller.name(), &room)?;
     shared.guard.takes_work(&caller)?;
     let mut inside = Arc::clone(&room.inside).lock_owned().await;
     let counts = Arc::clone(&shared);

@@ -75,7 +75,6 @@ fn programs() -> Vec<Row> {
     let translation: fn(&Things) -> Value = |own| json!({ "program": own.program, "to": "fanuc" });
     vec![
         row("GET", "/api/v1/programs", "", "none", 200, 0),
-        row("GET", "/api/v1/folders", "", "none", 200, 0),
         with(
             row("POST", "/api/v1/programs", "?name={name}&folder=plates", "editor", 201, 403),
             Body::Program,
@@ -121,20 +120,6 @@ fn programs() -> Vec<Row> {
         row("DELETE", "/api/v1/jobs/{job}", "", "editor", 200, 404),
         row("GET", "/api/v1/jobs/{job}/results", "", "reader", 200, 404),
         row("GET", "/api/v1/jobs/{job}/events", "", "reader", 200, 404),
-    ]
-}
-
-/// Addresses of the engines of the studio's page. Each user has a room of this name.
-fn engines() -> Vec<Row> {
-    vec![
-        row("PUT", "/api/v1/engine/r", "", "none", 204, 0),
-        with(row("PUT", "/api/v1/engine/r/files/a.cn", "", "none", 204, 0), Body::Program),
-        row("PUT", "/api/v1/engine/r/called/{program}", "", "reader", 204, 404),
-        with(
-            row("POST", "/api/v1/engine/r/run", "", "none", 200, 0),
-            Body::Json(|_| json!({ "verb": "check", "file": "a.cn", "from": "mach9" })),
-        ),
-        row("DELETE", "/api/v1/engine/r", "", "none", 204, 0),
     ]
 }
 
@@ -320,7 +305,7 @@ fn each_role_may_do_what_the_table_says() {
     assert_eq!(romi.status, 201);
     let callers = callers(&server, &root);
     let mut wrong = Vec::new();
-    let rows: Vec<Row> = programs().into_iter().chain(others()).chain(engines()).collect();
+    let rows: Vec<Row> = programs().into_iter().chain(others()).collect();
     for (number, row) in rows.iter().enumerate() {
         let mut made = None;
         for (of, caller) in callers.iter().enumerate() {
@@ -405,7 +390,7 @@ fn the_table_has_every_address() {
     assert!(all.len() >= 35, "{} addresses: {all:?}", all.len());
     let server = Server::limited(limits());
     let root = admin(&server);
-    let rows: Vec<Row> = programs().into_iter().chain(others()).chain(engines()).collect();
+    let rows: Vec<Row> = programs().into_iter().chain(others()).collect();
     for route in &all {
         let target = route.replace("{what}", "output").replace(['{', '}'], "");
         let answer = root.ask(&server, "BREW", &target, &Value::Null);
