@@ -1,4 +1,4 @@
-// Pictures of the studio, each of a program of the corpus: `node make.mjs FOLDER`, with NCC naming the binary.
+// Pictures of the studio, each of a program of the corpus: `node make.mjs FOLDER [NAME]`, with NCC naming the binary.
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -6,7 +6,7 @@ import { crc32, deflateSync } from "node:zlib";
 import { service, studio } from "../../studio/tests/binary.mjs";
 import { begin, open, ready } from "../../studio/tests/browser.mjs";
 
-const folder = process.argv[2];
+const [folder, only] = process.argv.slice(2);
 /** Bytes of a picture at most. */
 const MOST = 150_000;
 
@@ -129,7 +129,7 @@ const PICTURES = [
 ];
 
 const world = await begin();
-for (const { name, program, stored, size, act } of PICTURES) {
+for (const { name, program, stored, size, act } of PICTURES.filter((one) => !only || one.name === only)) {
   const server = await (stored ? service() : studio(program));
   if (stored) {
     const where = "/api/v1/programs?folder=flanges&name=bolt-circle.nc&dialect=fanuc&message=from+the+floor";

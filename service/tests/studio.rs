@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use ncc_service::Limits;
 use serde_json::Value;
 
-use crate::client::{Answer, Server, read_answer};
+use crate::access::{admin, limits, with_rights};
+use crate::client::{Answer, Server};
 use crate::limits::MOVES;
 
 const PART: &str = "%\nO1\nG21 G17 G90 G94 G40 G54\nT1 M6\nS3000 M3\nG43 H1 G0 X10. Y10. Z5.\nG1 Z-2. F200.\nG0 Z5.\nM30\n%\n";
@@ -26,7 +27,7 @@ impl Server {
     }
 
     fn run(&self, room: &str, request: &str) -> Answer {
-        self.ask("POST", &format!("/api/v1/engine/{room}/run"), &[], request.as_bytes())
+        self.json("POST", &format!("/api/v1/engine/{room}/run"), request.as_bytes())
     }
 }
 
@@ -142,6 +143,39 @@ fn calls_find_the_files_of_the_room_alone() {
     assert_eq!(beside("none"), 404);
 }
 
+/// A room is its user's; the page is there for everybody, and its engines are not.
+#[test]
+fn nobody_uses_the_room_of_another() {
+    let server = Server::limited(limits());
+    let root = admin(&server);
+    let [ana, bob] = ["ana", "bob"].map(|name| with_rights(&server, &root, name, &[(name, "editor")]));
+    let nothing = Value::Null;
+    assert_eq!(ana.ask(&server, "PUT", "/api/v1/engine/a", &nothing).status, 204);
+    let file = "/api/v1/engine/a/files/part.nc";
+    assert_eq!(ana.ask(&server, "PUT", file, &PART.into()).status, 204);
+    let check = serde_json::json!({ "verb": "check", "file": "part.nc", "from": "fanuc" });
+    let code = |answer: &Answer| read(answer).0;
+    assert_eq!(code(&ana.ask(&server, "POST", "/api/v1/engine/a/run", &check)), 0);
+    assert_eq!(bob.ask(&server, "PUT", file, &PART.into()).status, 404);
+    assert_eq!(bob.ask(&server, "POST", "/api/v1/engine/a/run", &check).status, 404);
+    // Bob's room of this name is another one.
+    assert_eq!(bob.ask(&server, "PUT", "/api/v1/engine/a", &nothing).status, 204);
+    assert_ne!(code(&bob.ask(&server, "POST", "/api/v1/engine/a/run", &check)), 0);
+    assert_eq!(bob.ask(&server, "DELETE", "/api/v1/engine/a", &nothing).status, 204);
+    assert_eq!(code(&ana.ask(&server, "POST", "/api/v1/engine/a/run", &check)), 0);
+    // A program of a folder that bob may not read is not there for his calls.
+    let made = ana.ask(&server, "POST", "/api/v1/programs?folder=ana&name=sub.nc", &CALLED.into()).json();
+    let called = format!("/api/v1/engine/a/called/{}", made["id"].as_str().expect("an id"));
+    assert_eq!(bob.ask(&server, "PUT", "/api/v1/engine/a", &nothing).status, 204);
+    assert_eq!(ana.ask(&server, "PUT", &called, &nothing).status, 204);
+    assert_eq!(bob.ask(&server, "PUT", &called, &nothing).status, 404);
+    let folders = |of: &crate::access::User| of.get(&server, "/api/v1/folders").json()["folders"].clone();
+    assert_eq!(folders(&ana), serde_json::json!([{ "folder": "ana", "programs": 1 }]));
+    assert_eq!(folders(&bob), serde_json::json!([]));
+    assert_eq!((server.get("/").status, server.get("/studio.js").status), (200, 200));
+    assert_eq!(server.room("a").status, 401);
+}
+
 #[test]
 fn rooms_have_their_number_and_their_bytes() {
     let limits = Limits { rooms_of_user: 2, room_bytes: 3000, rooms_bytes: 4000, ..Limits::default() };
@@ -206,13 +240,16 @@ fn work_in_a_room_has_its_time() {
     server.file("a", "part.nc", PART.as_bytes());
     let request = r#"{ "verb": "simulate", "file": "long.nc", "from": "fanuc" }"#;
     let begun = Instant::now();
-    let mut stream = server.send("POST", "/api/v1/engine/a/run", &[], request.as_bytes());
+    let media = [("Content-Type", "application/json")];
+    let stream = server.send("POST", "/api/v1/engine/a/run", &media, request.as_bytes());
     thread::sleep(Duration::from_millis(300));
     drop(stream);
     assert_eq!(check(&server, "a", "part.nc").0, 0);
     assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
-    stream = server.send("POST", "/api/v1/engine/a/run", &[], b"{");
-    assert_eq!(read(&read_answer(&mut stream)).0, 2);
+    for (request, status) in [("{", 422), ("[]", 422), ("{}", 200)] {
+        assert_eq!(server.run("a", request).status, status, "{request}");
+    }
+    assert_eq!(server.ask("POST", "/api/v1/engine/a/run", &[], b"{}").status, 415);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 // The binary that serves the page: started on a folder or a database, ended with the tests. NCC names it; without, its tests are
 // skipped.
 
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -31,10 +31,13 @@ export function studio(folder) {
   return started(["studio", folder, "--no-open"], /http:\/\/\S+#token=\w+/);
 }
 
-/** The service with a database of its own. `ask` sends a request, and gives its answer's JSON. */
+/** The service with a database of its own. `ask` sends a request, and gives its answer's JSON; `account` makes one, and from then on
+ * a login is needed. */
 export async function service(author = "ana") {
   const folder = mkdtempSync(join(tmpdir(), "ncc-service-"));
-  const server = await started(["serve", "--listen", "127.0.0.1:0", "--database", join(folder, "ncc.sqlite"), "--author", author], /http:\/\/[\d.:]+\s/);
+  const database = ["--database", join(folder, "ncc.sqlite")];
+  const server = await started(["serve", "--listen", "127.0.0.1:0", ...database, "--author", author], /http:\/\/[\d.:]+\s/);
+  const account = (name, role, password) => execFileSync(NCC, ["serve", "user", "add", name, "--role", role, ...database], { input: `${password}\n`, stdio: ["pipe", "ignore", "inherit"] });
   const ask = async (method, path, body, headers = {}) => {
     const json = body !== undefined && typeof body !== "string";
     const all = { ...(json && { "content-type": "application/json" }), ...headers };
@@ -46,5 +49,5 @@ export async function service(author = "ana") {
     server.end();
     rmSync(folder, { recursive: true, force: true });
   };
-  return { address: server.address, ask, end };
+  return { address: server.address, ask, account, end };
 }

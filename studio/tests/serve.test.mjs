@@ -72,12 +72,16 @@ serves("a first visit shows an example that the server cuts", {}, async (own) =>
 });
 
 serves("work is cancelled, and the next one is done", {}, async (own) => {
+  const isRun = (request) => /-heavy\/run$/.test(request.url());
   await own.locator("#editor .cm-content").click();
   await own.keyboard.press("Control+a");
+  const begun = own.waitForRequest(isRun);
   await paste(own, "%\nO1\nG21 G90 G17 G40 G80\n#1=0\nWHILE[#1LT9000000]DO1\nG1 X[#1/1000] F100.\n#1=#1+1\nEND1\nM30\n%\n");
-  await own.locator("#cancel").waitFor();
-  await own.waitForTimeout(300);
+  await begun;
+  // Its connection goes, and the server's work with it.
+  const gone = own.waitForEvent("requestfailed", isRun);
   await own.click("#cancel");
+  await gone;
   await own.locator("#cancel").waitFor({ state: "hidden" });
   await type(own, SQUARE);
   assert.match(await value(own, "#problems-count"), /Nothing found|[0-9]/);
@@ -183,7 +187,7 @@ serves("where someone else was first, both are seen, and one's own goes on top",
   const [program] = (await server.ask("GET", "/api/v1/programs")).programs;
   await take(own, "square.nc");
   await type(own, EDITED);
-  await change(server, program, THEIRS, "another feed");
+  await change(server, program, THEIRS.replace("F150.", "F140."), "another feed");
   await own.keyboard.press("Control+s");
   const dialog = own.locator("#conflict-dialog");
   await dialog.waitFor();
@@ -192,7 +196,8 @@ serves("where someone else was first, both are seen, and one's own goes on top",
   await dialog.locator("button", { hasText: "See both" }).click();
   await dialog.locator(".cm-line.pair", { hasText: "(EDITED)" }).waitFor();
   await dialog.locator(".cm-line.pair", { hasText: "(THEIRS)" }).waitFor();
-  assert.equal(await dialog.locator(".cm-line.pair").count(), 2);
+  // The lines between those that differ are the same.
+  assert.equal(await dialog.locator(".cm-line.pair").count(), 4);
   await dialog.locator("button", { hasText: "Keep mine" }).click();
   await tells(own, "Saved as revision 3");
   assert.equal(await server.ask("GET", `/api/v1/programs/${program.id}/text`), EDITED);
@@ -401,9 +406,9 @@ function guarded(state) {
   };
 }
 
-async function logIn(own, password = "right") {
+async function logIn(own, password = "right", user = "ana") {
   await own.locator("#login").waitFor();
-  await own.getByLabel("User").fill("ana");
+  await own.getByLabel("User").fill(user);
   await own.getByLabel("Password").fill(password);
   await own.keyboard.press("Enter");
 }
@@ -436,6 +441,37 @@ serves("a login is asked for, a session that ends loses no text, and one logs ou
   await own.click("#log-out");
   await own.locator("#login").waitFor();
   assert.doesNotMatch(await content(own), /EDITED/);
+});
+
+serves("accounts of the service log in, and what their rights do not include is told", {
+  stored: async (server) => {
+    await square(server);
+    server.account("root", "admin", "the first account");
+    server.account("rita", "reader", "a long password");
+    server.account("ed", "editor", "another password");
+  },
+  early: async (own) => {
+    await own.locator("#login").waitFor();
+    await own.waitForTimeout(300);
+    await logIn(own, "a long password", "rita");
+  },
+}, async (own) => {
+  await take(own, "square.nc");
+  await type(own, EDITED);
+  await own.keyboard.press("Control+s");
+  await tells(own, "You may not do this.");
+  assert.equal(await value(own, "#save-state"), "Not saved");
+  await own.click("#log-out");
+  await logIn(own, "another password", "ed");
+  await own.locator("#login").waitFor({ state: "detached" });
+  await ready(own);
+  await take(own, "square.nc");
+  // What rita typed is hers.
+  assert.match(await content(own), /\(SQUARE\)/);
+  await type(own, THEIRS);
+  await own.keyboard.press("Control+s");
+  await tells(own, "Saved as revision 2");
+  assert.match(await value(own, "#server-about"), /revision 2 · ed/);
 });
 
 serves("a server that is gone is told, and nothing typed is lost", { stored: square }, async (own, server, context) => {

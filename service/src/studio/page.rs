@@ -28,7 +28,7 @@ pub(super) fn routes() -> Router<Arc<Shared>> {
         let path = file.path.clone();
         let tag = etag(&digest(&[&file.bytes]), "");
         let file = Arc::new((file, tag));
-        routes.route(&path, get(move |headers: HeaderMap| async move { answer(&file, &headers) }))
+        Router::route(routes, &path, get(move |headers: HeaderMap| async move { answer(&file, &headers) }))
     })
 }
 

@@ -6,10 +6,10 @@ use std::time::Duration;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
 use axum::extract::{Path, RawQuery, State};
-use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::rooms::Room;
 use crate::Shared;
@@ -19,13 +19,10 @@ use crate::http::{Problem, body};
 use crate::rights::Act;
 use crate::translating::callable;
 
-/// Bytes of a request at most.
-const REQUEST: u64 = 1 << 20;
-
 /// Cells along the longer side of a part at most: with both maps of the part, 32 MB.
 const CELLS: u64 = 2048;
 
-/// Makes a room.
+/// Makes a room with an engine; one that is there stays.
 pub(super) async fn open(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -62,16 +59,18 @@ pub(super) async fn close(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Keeps a file.
+/// Puts a file into a room, in the place of another of its name.
 pub(super) async fn keep(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
     Path((room, name)): Path<(String, String)>,
     RawQuery(query): RawQuery,
+    headers: HeaderMap,
     bytes: Result<Bytes, BytesRejection>,
 ) -> Result<StatusCode, Problem> {
     Query::of(query.as_deref()).end("")?;
     body::name(&name)?;
+    body::media(&headers)?;
     let bytes = body::whole(bytes, shared.largest)?;
     let room = shared.rooms.of(caller.name(), &room)?;
     let mut inside = room.inside.lock().await;
@@ -81,7 +80,7 @@ pub(super) async fn keep(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Puts the programs in the folder of a program beside it. Those that the room has already stay.
+/// Puts the programs in the folder of a program into a room, for its calls. Those that the room has already stay.
 pub(super) async fn called(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
@@ -115,39 +114,34 @@ pub(super) async fn called(
 }
 
 /// A request with the limits that a stranger could break.
-fn bounded(request: &str, moves: usize) -> Result<String, Problem> {
-    // The engine says what is wrong with one that is no JSON.
-    let Ok(mut bounded) = serde_json::from_str::<Value>(request) else { return Ok(request.to_owned()) };
-    if bounded["cells"].as_u64().is_some_and(|cells| cells > CELLS) {
+fn bounded(mut request: Map<String, Value>, moves: usize) -> Result<String, Problem> {
+    if request.get("cells").and_then(Value::as_u64).is_some_and(|cells| cells > CELLS) {
         return Err(Problem::request(format!("a part has {CELLS} cells along its longer side at most"))
             .help("choose fewer cells in the set-up"));
     }
-    if matches!(bounded["verb"].as_str(), Some("path" | "simulate")) {
-        bounded["most_moves"] = moves.into();
-        if let Some(other) = bounded.get_mut("compare").filter(|other| other.is_object()) {
-            other["most_moves"] = moves.into();
+    if matches!(request.get("verb").and_then(Value::as_str), Some("path" | "simulate")) {
+        request.insert("most_moves".to_owned(), moves.into());
+        if let Some(other) = request.get_mut("compare").and_then(Value::as_object_mut) {
+            other.insert("most_moves".to_owned(), moves.into());
         }
     }
-    Ok(bounded.to_string())
+    Ok(Value::from(request).to_string())
 }
 
-/// Does a request within the limits of the compiler's work, for as long as its connection is there.
+/// Does a request to the engine of a room, for as long as its connection is there. The answer is a line of JSON, `code` and `outputs`
+/// with their names and lengths, then the outputs.
 pub(super) async fn run(
     State(shared): State<Arc<Shared>>,
     caller: Caller,
     Path(room): Path<String>,
     RawQuery(query): RawQuery,
+    headers: HeaderMap,
     request: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     Query::of(query.as_deref()).end("")?;
-    let request = body::whole(request, REQUEST)?;
-    if request.len() as u64 > REQUEST {
-        return Err(Problem::too_large(REQUEST));
-    }
-    let request = String::from_utf8(request.to_vec())
-        .map_err(|_| Problem::request("the request is no text in UTF-8"))?;
-    let request = bounded(&request, shared.rooms.moves())?;
     let room: Arc<Room> = shared.rooms.of(caller.name(), &room)?;
+    let request = bounded(body::json(&headers, request)?, shared.rooms.moves())?;
+    shared.guard.takes_work(&caller)?;
     shared.guard.takes_work(&caller)?;
     let mut inside = Arc::clone(&room.inside).lock_owned().await;
     let counts = Arc::clone(&shared);
@@ -168,23 +162,23 @@ pub(super) async fn run(
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_part_has_its_cells() {
-        assert!(bounded(r#"{ "verb": "simulate", "cells": 2048 }"#, 9).is_ok());
-        assert!(bounded(r#"{ "verb": "simulate", "cells": 2049 }"#, 9).is_err());
-        assert_eq!(bounded("{", 9).expect("the engine says what is wrong with it"), "{");
+    /// The limits of a request that has 9 moves at most.
+    fn limits(request: &str) -> Result<[Option<u64>; 2], Problem> {
+        let bounded = bounded(serde_json::from_str(request).expect("an object"), 9)?;
+        let bounded: Value = serde_json::from_str(&bounded).expect("JSON");
+        Ok([bounded["most_moves"].as_u64(), bounded["compare"]["most_moves"].as_u64()])
     }
 
     #[test]
-    fn a_path_has_its_moves() {
-        let most = |request: &str| {
-            let bounded: Value =
-                serde_json::from_str(&bounded(request, 9).expect("a request")).expect("JSON");
-            [bounded["most_moves"].as_u64(), bounded["compare"]["most_moves"].as_u64()]
-        };
-        let own = Some(9);
-        assert_eq!(most(r#"{ "verb": "path", "most_moves": 9000000 }"#), [own, None]);
-        assert_eq!(most(r#"{ "verb": "simulate", "compare": { "file": "a" } }"#), [own, own]);
-        assert_eq!(most(r#"{ "verb": "check" }"#), [None, None]);
+    fn a_part_has_its_cells_and_a_path_its_moves() {
+        assert!(limits(r#"{ "verb": "simulate", "cells": 2048 }"#).is_ok());
+        assert!(limits(r#"{ "verb": "simulate", "cells": 2049 }"#).is_err());
+        for (request, own) in [
+            (r#"{ "verb": "path", "most_moves": 9000000 }"#, [Some(9), None]),
+            (r#"{ "verb": "simulate", "compare": { "file": "a" } }"#, [Some(9), Some(9)]),
+            (r#"{ "verb": "check" }"#, [None, None]),
+        ] {
+            assert_eq!(limits(request).expect("a request"), own, "{request}");
+        }
     }
 }

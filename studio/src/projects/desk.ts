@@ -86,7 +86,9 @@ export class Desk {
       if (name) return this.openProgram(name, asked);
     }
     if (this.store.current && (await this.remote?.open(this.store.current, asked))) return;
-    const current = this.store.current && (await this.store.get(this.store.current));
+    const kept = this.store.current ? await this.store.get(this.store.current) : undefined;
+    // What is not opened from its server is not there, or is another user's.
+    const current = kept?.[0].server ? undefined : kept;
     const [last] = current ? [] : (await this.store.list()).filter(isBrowsers);
     const found = current || (last && (await this.store.get(last.id)));
     if (found) return this.show(...found, asked);

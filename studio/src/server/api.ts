@@ -83,7 +83,7 @@ export class Api {
       const answer = await this.send(method, path, sent);
       if (answer.ok) return answer;
       if (answer.status === 401) await this.login();
-      else if (answer.status === 503 && tries < TRIES) await new Promise((done) => setTimeout(done, 1000 * tries));
+      else if ((answer.status === 503 || answer.status === 429) && tries < TRIES) await new Promise((done) => setTimeout(done, 1000 * tries));
       else if (answer.status !== 403 || tries > 1 || (await this.renewed(csrf)) === csrf) throw new Refused(answer.status, await problemOf(answer));
     }
   }

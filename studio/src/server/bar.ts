@@ -53,6 +53,7 @@ export class Bar {
     byId("theme").before(user);
     api.session.on((session) => {
       user.hidden = session.login === "none" || session.user === null;
+      user.setAttribute("aria-label", `${tell("logout")} ${session.user ?? ""}`);
       user.title = tell("loggedIn", { user: session.user ?? "" });
       user.replaceChildren(icon("leave"), el("span", {}, `${tell("logout")} ${session.user ?? ""}`));
     });

@@ -3,7 +3,13 @@
 
 import type { Request } from "../engine/engine";
 import { Loopback } from "../engine/loopback";
-import { Refused, type Api } from "./api";
+import { Refused, type Api, type Sent } from "./api";
+
+/** A request of the room: a text is JSON. */
+function sentOf(body: BodyInit | undefined, signal: AbortSignal | undefined): Sent {
+  const type = typeof body === "string" ? "application/json" : "application/octet-stream";
+  return { ...(body !== undefined && { body, headers: { "content-type": type } }), ...(signal && { signal }) };
+}
 
 export class Room extends Loopback {
   private readonly files = new Map<string, Uint8Array>();
@@ -12,7 +18,7 @@ export class Room extends Loopback {
   private opened = false;
 
   constructor(api: Api, room: string) {
-    super((method, path, body, signal) => api.ask(method, path, { ...(body !== undefined && { body }), ...(signal && { signal }) }), `/api/v1/engine/${room}`);
+    super((method, path, body, signal) => api.ask(method, path, sentOf(body, signal)), `/api/v1/engine/${room}`);
     // Rooms of pages that are gone would be kept for a while.
     addEventListener("pagehide", () => {
       this.opened = false;

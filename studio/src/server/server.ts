@@ -69,7 +69,7 @@ export class Server implements Remote {
   async open(id: string, asked: number): Promise<boolean> {
     await this.api.begin();
     const own = this.key("");
-    if (!id.startsWith(own)) return id.startsWith("server/");
+    if (!id.startsWith(own)) return false;
     const kept = await this.desk.store.get(id);
     const isDraft = kept?.[0].server?.draft === true;
     try {
@@ -210,10 +210,11 @@ export class Server implements Remote {
     const project = this.desk.project;
     if (project?.server?.program !== theirs.id || text === undefined) return;
     this.conflict.set(undefined);
-    this.editor.replace(text);
     const choices = { ...project.choices, from: theirs.dialect ?? "auto", machine: this.choiceOf(theirs.machine ?? "") };
-    await this.keep({ ...project }, theirs, text);
-    await this.desk.choose((own) => Object.assign(own.choices, choices));
+    this.session.project.set({ ...project, choices });
+    this.editor.replace(text);
+    this.session.change();
+    await this.keep(project, theirs, text);
   }
 
   /** Whether somebody else has saved meanwhile. */
