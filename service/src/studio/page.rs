@@ -28,7 +28,7 @@ pub(super) fn routes() -> Router<Arc<Shared>> {
         let path = file.path.clone();
         let tag = etag(&digest(&[&file.bytes]), "");
         let file = Arc::new((file, tag));
-        Router::route(routes, &path, get(move |headers: HeaderMap| async move { answer(&file, &headers) }))
+        routes.route(&path, get(move |headers: HeaderMap| async move { answer(&file, &headers) }))
     })
 }
 
