@@ -57,6 +57,7 @@ pub use self::store::Place;
 use self::store::{Store, StoreError};
 use self::studio::Rooms;
 use self::work::Pool;
+use self::workers::Bell;
 
 /// Limits of the service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -175,6 +176,7 @@ struct Shared {
     own: Option<Store>,
     pool: Pool,
     counters: Arc<Counters>,
+    bell: Bell,
     rooms: Rooms,
     /// Bytes of a program and of a document at most.
     largest: u64,
@@ -355,6 +357,7 @@ impl Service {
             pool,
             rooms: Rooms::new(&limits),
             counters: Arc::new(Counters::new()),
+            bell: Bell::new(),
             largest: limits.largest,
             author: author.to_owned(),
             guard,
@@ -383,6 +386,7 @@ impl Service {
             .routes
             .fallback(async || Problem::no_address())
             .method_not_allowed_fallback(async || Problem::method())
+            .layer(middleware::from_fn_with_state(Arc::clone(&self.shared), workers::ring))
             .layer(middleware::from_fn_with_state(Arc::clone(&self.shared), guard::pass))
             .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
             .layer(middleware::from_fn_with_state(Arrivals::new(&self.limits), arrival::pass))

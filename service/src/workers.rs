@@ -5,6 +5,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use axum::extract::{Request, State};
+use axum::http::Method;
+use axum::middleware::Next as Handler;
+use axum::response::Response;
 use serde_json::{Value, json};
 use tokio::sync::watch;
 
@@ -19,8 +23,58 @@ use crate::translating::{Asked, translate};
 /// Seconds for which a task is claimed; more than it may take.
 const CLAIM: i64 = 60;
 
-/// Interval in which an idle worker looks for a task, and a busy worker for a cancelled job.
+/// Interval in which a worker looks for a task, and a busy worker for a cancelled job.
 const GLANCE: Duration = Duration::from_millis(250);
+
+/// Longest interval of a worker that finds none for a while. Tasks of other processes wait as long.
+const REST: Duration = Duration::from_secs(2);
+
+/// Wakes the workers of this process.
+pub(crate) struct Bell(watch::Sender<()>);
+
+impl Bell {
+    pub(crate) fn new() -> Bell {
+        Bell(watch::Sender::new(()))
+    }
+}
+
+/// Wakes the workers after each request that may have made a task.
+pub(crate) async fn ring(State(shared): State<Arc<Shared>>, request: Request, next: Handler) -> Response {
+    let reads = matches!(*request.method(), Method::GET | Method::HEAD);
+    let answer = next.run(request).await;
+    if !reads {
+        shared.bell.0.send_replace(());
+    }
+    answer
+}
+
+/// The pauses of an idle worker: longer and longer, until there is something to do.
+struct Pauses {
+    bell: watch::Receiver<()>,
+    next: Duration,
+}
+
+impl Pauses {
+    fn of(shared: &Shared) -> Pauses {
+        Pauses { bell: shared.bell.0.subscribe(), next: GLANCE }
+    }
+
+    /// There is something to do.
+    fn reset(&mut self) {
+        self.next = GLANCE;
+    }
+
+    /// Waits until the pause is over, the bell rings, or the worker is asked to stop.
+    async fn wait(&mut self, stop: &mut watch::Receiver<bool>) {
+        let pause = self.next;
+        self.next = (pause * 2).min(REST);
+        tokio::select! {
+            () = tokio::time::sleep(pause) => {}
+            _ = stop.changed() => {}
+            Ok(()) = self.bell.changed() => self.reset(),
+        }
+    }
+}
 
 /// Reason why a task has no result.
 enum Left {
@@ -35,13 +89,14 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
         crate::observe::fault("a worker has no name: the system gives no random bytes");
         return;
     };
+    let mut pauses = Pauses::of(&shared);
     while !*stop.borrow() {
         let worker = name.clone();
         let claimed = shared.store(&ncc, move |store| Ok(store.claim(&worker, CLAIM)?)).await;
         let task = match claimed {
             Ok(Some(task)) => task,
             Ok(None) => {
-                let _ = tokio::time::timeout(GLANCE, stop.changed()).await;
+                pauses.wait(&mut stop).await;
                 continue;
             }
             Err(problem) => {
@@ -50,6 +105,7 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
                 continue;
             }
         };
+        pauses.reset();
         let done = do_task(&shared, &ncc, &task, &mut stop).await;
         let worker = name.clone();
         let ended = shared
@@ -81,6 +137,7 @@ pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver
     // Facts are those of all programs; who reads them is asked when they are searched.
     let caller = Caller::of(Who::service());
     let limit = shared.pool.limit();
+    let mut pauses = Pauses::of(&shared);
     while !*stop.borrow() {
         let worker = name.clone();
         // A thread of the compiler is taken only where there is something to do, and the claim begins with it.
@@ -89,19 +146,18 @@ pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver
             Ok(true) => shared.compile_in_turn(&caller, move |store| next(store, &worker, limit)).await,
             Err(problem) => Err(problem),
         };
-        let pause = match done {
-            Ok(Next::Done) => continue,
-            Ok(Next::Nothing) => GLANCE,
+        match done {
+            Ok(Next::Done) => pauses.reset(),
+            Ok(Next::Nothing) => pauses.wait(&mut stop).await,
             Ok(Next::Stopped) => return,
             Err(problem) => {
                 crate::observe::fault(&format!(
                     "the facts of a program were not computed: {}",
                     problem.detail()
                 ));
-                GLANCE * 20
+                let _ = tokio::time::timeout(GLANCE * 20, stop.changed()).await;
             }
-        };
-        let _ = tokio::time::timeout(pause, stop.changed()).await;
+        }
     }
 }
 
