@@ -390,7 +390,7 @@ impl Service {
             .layer(middleware::from_fn_with_state(Arc::clone(&self.shared), guard::pass))
             .layer(DefaultBodyLimit::max(usize::try_from(self.shared.largest).unwrap_or(usize::MAX)))
             .layer(middleware::from_fn_with_state(Arrivals::new(&self.limits), arrival::pass))
-            .layer(tower_http::compression::CompressionLayer::new())
+            .layer(compression::layer())
             .layer(middleware::map_response(compression::tag))
             .layer(middleware::from_fn_with_state(gate::Gate::new(&self.listen), gate::pass))
             .layer(middleware::from_fn_with_state(Arc::clone(&self.shared.counters), observe::pass))

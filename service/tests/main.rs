@@ -8,6 +8,7 @@ mod client;
 mod jobs;
 mod limits;
 mod names;
+mod observe;
 mod parts;
 mod programs;
 mod search;

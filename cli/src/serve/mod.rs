@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
-use ncc_service::{Listen, OpenError, Part, Service};
+use ncc_service::{Listen, LogForm, LogLevel, OpenError, Part, Service};
 
 pub use self::database::Database;
 use self::database::{unusable, user_of_the_computer};
@@ -69,6 +69,30 @@ pub struct Serve {
     /// The address of PERSISTENCE, for `--only transpiler` and `--only output`
     #[arg(long, value_name = "URL")]
     pub persistence: Option<String>,
+    /// Lines of the log, on stderr
+    #[arg(long, value_name = "LINES", default_value = "faults")]
+    pub log: Log,
+    /// Form of the log
+    #[arg(long, value_name = "FORM", default_value = "text")]
+    pub log_format: LogFormat,
+}
+
+/// Lines of the log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Log {
+    /// Faults of the service
+    Faults,
+    /// Each request too: its name, method, path, status and time
+    Requests,
+}
+
+/// Form of the log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// Lines for people
+    Text,
+    /// A JSON object a line
+    Json,
 }
 
 /// Commands about the database of the service.
@@ -154,7 +178,21 @@ pub fn run(args: &Serve, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     }
 }
 
+/// Begins the log.
+fn log(args: &Serve) {
+    let level = match args.log {
+        Log::Faults => LogLevel::Faults,
+        Log::Requests => LogLevel::Requests,
+    };
+    let form = match args.log_format {
+        LogFormat::Text => LogForm::Text,
+        LogFormat::Json => LogForm::Json,
+    };
+    ncc_service::log(level, form);
+}
+
 fn serve(args: &Serve) -> Result<(), Problem> {
+    log(args);
     let service = Service::open(listen(args), &part(args)?, &author(args.author.as_ref())).map_err(|error| match error {
         OpenError::NoAccount => Problem::usage(
             "other computers could ask, and there is no account",

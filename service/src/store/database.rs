@@ -37,6 +37,7 @@ impl Database {
         // A first connection tells what is wrong; the pool would try again until its patience ends.
         match place {
             Place::File(path) => {
+                sqlite::make(path).map_err(|error| StoreError::Database(error.to_string()))?;
                 let file = File { path: path.clone(), patience: PATIENCE, first: OnceLock::new() };
                 sqlite::migrate(&mut file.connect()?)?;
                 Ok(Database::File(pool(file)?))

@@ -4,7 +4,7 @@
 //! (`synchronous = FULL`). The file has the number of the last migration (`user_version`) and the mark of ncc
 //! (`application_id`), so that no other file is changed by mistake.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
@@ -66,6 +66,23 @@ impl ManageConnection for File {
 
     fn has_broken(&self, _connection: &mut Connection) -> bool {
         false
+    }
+}
+
+/// Makes the file of a new database, which other users of this computer cannot read: it has digests of passwords. SQLite gives
+/// the files beside it the same rights.
+pub(super) fn make(path: &Path) -> std::io::Result<()> {
+    // To SQLite this is no file, and each connection would have a database of its own.
+    if path == Path::new(":memory:") {
+        return Err(std::io::ErrorKind::InvalidInput.into());
+    }
+    let mut options = std::fs::OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    match options.open(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::AlreadyExists => Err(error),
+        _ => Ok(()),
     }
 }
 
