@@ -5,13 +5,17 @@
 //! | `/transpiler`, `/persistence`, `/output` | the services of the case study |
 //! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations |
 //! | `/api/v1/machines` | profiles of machines |
+//! | `/api/v1/jobs`, `/api/v1/search` | many programs translated, and found by what they do |
+//! | `/api/v1/session`, `/accounts`, `/tokens`, `/audit` | users, and what they did |
 //! | `/`, `/api/v1/engine` | the studio's page and its engines |
+//! | `/api/v1/openapi.json`, `/api/v1/docs`, `/metrics` | the description of all addresses, and counters |
 //!
 //! One process has all of them ([`Part::All`]), or one of the case study's three, which finds PERSISTENCE over HTTP. No
 //! state is in a process but the store's connections. Programs are read from requests alone: no file of the server is
 //! readable through a program's calls. Work of the compiler has limits of time, size and number (`work`).
 //!
-//! It answers this computer alone, without a login, until there is an account. Others need accounts ([`access`]). Not here: the compiler (`ncc_engine`, `ncc_driver`), the command line.
+//! It answers this computer alone, without a login, until there is an account. Others need accounts ([`access`]). Not here:
+//! the compiler (`ncc_engine`, `ncc_driver`), the command line.
 
 mod access;
 mod api;
