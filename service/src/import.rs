@@ -18,7 +18,7 @@ use crate::store::{Condition, Details, Place, Receiving, Revision, Said, Store, 
 /// Bytes of a text that are read at once.
 const READ: usize = 1 << 16;
 
-/// What a program has become.
+/// Result of an imported program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Imported {
     /// It was not there.

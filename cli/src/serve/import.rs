@@ -54,7 +54,7 @@ pub struct Import {
     pub verbose: bool,
 }
 
-/// What became of the files.
+/// Results of the files.
 #[derive(Debug)]
 struct Account {
     /// Programs by what they have become: new, changed, the same.

@@ -65,7 +65,7 @@ pub struct Token {
     /// The name of the token
     #[arg(long = "for", value_name = "NAME")]
     pub purpose: String,
-    /// What it may do of what the account may do; each includes to read
+    /// Its share of the rights of the account; each includes to read
     #[arg(long = "scope", value_name = "SCOPE", default_value = "read", value_parser = PossibleValuesParser::new(Scope::NAMES))]
     pub scopes: Vec<String>,
     /// Its end: 2027-01-01T00:00:00Z [default: in 90 days]

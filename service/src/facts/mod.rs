@@ -1,4 +1,4 @@
-//! What a program does, found out by executing it: tools, codes, times, extents; and the terms by which it is found.
+//! Facts of a program, from its execution: tools, codes, times, extents; and the terms by which it is found.
 //!
 //! ```text
 //! T3 M6, G81 … in 42 s    { "tools": [3], "codes": ["G81", "M6"], "seconds": 42.0, "extents": { "x": [0, 80], … } }

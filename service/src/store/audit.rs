@@ -218,7 +218,7 @@ impl Store {
 mod tests {
     use super::*;
 
-    /// Who changes an entry and computes its digest anew breaks the next one.
+    /// A changed entry with a new digest breaks the next entry.
     #[test]
     fn an_entry_rests_on_the_one_before() {
         let folder = tempfile::tempdir().expect("a folder");

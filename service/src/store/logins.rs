@@ -19,7 +19,7 @@ pub(crate) struct Token {
     pub(crate) id: String,
     /// The name that its owner gave it.
     pub(crate) name: String,
-    /// What it may do of what its account may do.
+    /// Its share of the rights of its account.
     pub(crate) scopes: Vec<Scope>,
     /// When it was made, seconds since 1970 (UTC).
     pub(crate) made: i64,

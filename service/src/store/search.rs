@@ -97,7 +97,7 @@ pub(crate) struct Found {
     pub(crate) document: String,
     /// Whether they are of the program as it is.
     pub(crate) is_up_to_date: bool,
-    /// Where the word that was looked for stands in the text.
+    /// Place of the word in the text.
     pub(crate) hit: Option<Hit>,
     /// Its translations, the newest first.
     pub(crate) translations: Vec<OfProgram>,
