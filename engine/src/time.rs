@@ -116,23 +116,23 @@ pub(crate) fn summed_up(
     summed_up_by(asked, files, messages, |plan, source| {
         let mut tallier = Tallier::new(&plan.machine);
         let course = drive(plan, source, &mut tallier, &mut Unwatched)?;
-        Ok((course, tallier.finish(), Vec::new()))
+        Ok((course, tallier.finish()))
     })
 }
 
-/// The same, where something else counts: it gives further outputs.
+/// The same, where something else counts.
 fn summed_up_by(
     asked: &Summary,
     files: &Files,
     messages: &mut Buffer,
-    count: impl FnOnce(&Plan, &mut Source) -> io::Result<(Course, Account, Outputs)>,
+    count: impl FnOnce(&Plan, &mut Source) -> io::Result<(Course, Account)>,
 ) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("time", &asked.file, &e);
     let asked = asked.time();
     let Ready { side: Side { mut source, job }, profile, model } = Ready::of(&asked, files, messages)?;
     let profile = profile.as_deref();
     let (plan, unstated) = planned(&asked, &job, profile, model);
-    let (course, account, further) = count(&plan, &mut source).map_err(cannot)?;
+    let (course, account) = count(&plan, &mut source).map_err(cannot)?;
     let shown = source.shown.clone();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };
     human::print(messages, &mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
@@ -163,7 +163,6 @@ fn summed_up_by(
     report.json(&mut document).map_err(cannot)?;
     report.tool_list(&mut tools).map_err(cannot)?;
     outputs.extend([("document", document), ("tools", tools)]);
-    outputs.extend(further);
     Ok((Exit::Done, outputs))
 }
 

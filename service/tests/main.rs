@@ -8,6 +8,7 @@ mod client;
 mod jobs;
 mod limits;
 mod names;
+mod outputs;
 mod parts;
 mod programs;
 mod search;

@@ -63,12 +63,14 @@ pub(crate) fn sheet(
     files: &Files,
     messages: &mut Buffer,
 ) -> Result<(Exit, Outputs), Problem> {
-    summed_up_by(asked, files, messages, |plan, source| {
+    let mut used = Vec::new();
+    let (exit, mut outputs) = summed_up_by(asked, files, messages, |plan, source| {
         let mut noted = Noted { tallier: Tallier::new(&plan.machine), cooled: Vec::new() };
         let course = drive(plan, source, &mut noted, &mut Unwatched)?;
-        let used =
-            json!({ "tools": noted.cooled, "offsets": offsets(&course.offsets, plan.job.from.dialect) });
-        let used = serde_json::to_vec(&used).unwrap_or_default();
-        Ok((course, noted.tallier.finish(), vec![("used", used)]))
-    })
+        let offsets = offsets(&course.offsets, plan.job.from.dialect);
+        used = serde_json::to_vec(&json!({ "tools": noted.cooled, "offsets": offsets })).unwrap_or_default();
+        Ok((course, noted.tallier.finish()))
+    })?;
+    outputs.push(("used", used));
+    Ok((exit, outputs))
 }
