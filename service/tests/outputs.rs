@@ -8,9 +8,9 @@ use crate::client::{Answer, PROGRAM, Server, TABLE_10};
 use crate::programs::new;
 
 /// A program with a pocket and a hole, whose comments state its tools.
-const PART: &str = "(T1 END MILL D10)\n(<b>ROUGH & \"FINE\"</b>)\nT1 M6\nG54 G90 G0 X0. Y0. S2000 M3 M8\nG0 Z2.\n\
-                    G1 Z-3. F100.\nG1 X40. F300.\nG1 Y20.\nG0 Z50.\n(DRILL)\nT2 M6\nG55 G0 X10. Y10. S900 M3\nG0 Z2.\n\
-                    G1 Z-8. F80.\nG0 Z50.\nM30\n";
+const PART: &str = "(T1 END MILL D10)\nT1 M6\nM8\n(<b>ROUGH & \"FINE\"</b>)\nG21 G54 G90 G0 X0. Y0. S2000 M3\nG43 H1 Z2.\n\
+                    G1 Z-3. F100.\nG1 X40. F300.\nG1 Y20.\nG0 Z50.\n(DRILL)\nT2 M6\nM8\nG55 G0 X10. Y10. S900 M3\n\
+                    G43 H2 Z2.\nG1 Z-8. F80.\nG0 Z50.\nM30\n";
 
 fn get(server: &Server, program: &str, what: &str) -> Answer {
     server.get(&format!("/api/v1/programs/{program}/{what}"))
@@ -29,9 +29,9 @@ fn operations_are_csv_and_json() {
     let document = made.json();
     let operations = document["operations"].as_array().expect("a list");
     let tools: Vec<&Value> = operations.iter().map(|own| &own["tool"]).collect();
-    assert_eq!(tools, [&json!(1), &json!(2)], "{document}");
-    assert_eq!(operations[1]["operation"], "DRILL");
-    assert_eq!((&operations[0]["feed_min"], &operations[0]["feed_max"]), (&json!(100.0), &json!(300.0)));
+    assert_eq!(tools, [&json!(1), &json!(1), &json!(2)], "{document}");
+    assert_eq!((&operations[2]["operation"], &operations[2]["line"]), (&json!("DRILL"), &json!(11)));
+    assert_eq!((&operations[1]["feed_min"], &operations[1]["feed_max"]), (&json!(100.0), &json!(300.0)));
     assert_eq!((&document["revision"], &document["machine"]), (&json!(1), &json!("fanuc-vmc")));
     // All time belongs to an operation.
     let sum: f64 = operations.iter().filter_map(|own| own["time"].as_f64()).sum();
@@ -41,12 +41,12 @@ fn operations_are_csv_and_json() {
     assert_ne!(table.header("etag"), made.header("etag"));
     let text = table.text();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines.len(), 3, "{text}");
+    assert_eq!(lines.len(), 4, "{text}");
     assert!(lines[0].starts_with(
         "program,revision,sha256,dialect,machine,model,position,operation,tool,line,start,time,"
     ));
     assert!(
-        lines[1].starts_with("<i>part.nc,1,") && lines[1].contains(",\"<b>ROUGH & \"\"FINE\"\"</b>\",1,"),
+        lines[2].starts_with("<i>part.nc,1,") && lines[2].contains(",\"<b>ROUGH & \"\"FINE\"\"</b>\",1,"),
         "{text}"
     );
     assert!(lines.iter().all(|line| !line.is_empty()) && text.ends_with("\r\n"));
@@ -180,7 +180,7 @@ fn revisions_are_compared_by_their_motion() {
     let document = first.json();
     assert_eq!((document["equal"].clone(), first.status), (json!(false), 200), "{document}");
     assert_eq!(document["a"]["name"], "<i>part.nc (revision 1)");
-    assert_eq!(document["differences"][0]["a"][0]["line"], 7, "{document}");
+    assert_eq!(document["differences"][0]["a"][0]["line"], 8, "{document}");
     assert_eq!(get(&server, &program, "comparison?from=1&to=2&tolerance=2").json()["equal"], true);
     let page = get(&server, &program, "comparison?from=1&form=html");
     assert_eq!((page.status, page.header("content-type")), (200, "text/html; charset=utf-8"));
