@@ -20,7 +20,7 @@ body{font:10.5pt/1.35 system-ui,sans-serif;margin:0 auto;max-width:186mm;padding
 h1{font-size:15pt;margin:0 0 2mm;overflow-wrap:anywhere}h2{font-size:11.5pt;margin:5mm 0 1.5mm;break-after:avoid}\
 table{border-collapse:collapse;width:100%}td,th{border:1px solid var(--line);padding:1mm 1.6mm;text-align:left;\
 vertical-align:top;overflow-wrap:anywhere}th{background:var(--soft);font-weight:600}tr{break-inside:avoid}\
-.tools{font-size:9pt}.tools th,.tools td{overflow-wrap:normal}.facts th{width:33mm}.n{text-align:right;white-space:nowrap}\
+.tools{font-size:9pt}.tools th,.tools td{overflow-wrap:normal}.tools td:nth-child(2){min-width:25mm}.facts th{width:33mm}.n{text-align:right;white-space:nowrap}\
 small{color:var(--grey);font-size:85%}\
 code{font:9pt ui-monospace,monospace;overflow-wrap:anywhere}mark{background:var(--mark);color:var(--on);padding:0 .3em;\
 border-radius:2px;font-size:85%}.bad{color:var(--bad);font-weight:600}ul{margin:0;padding-left:5mm}li{break-inside:avoid}\
@@ -195,6 +195,9 @@ fn warnings(out: &mut String, facts: &Facts) {
             let program = &document["programs"][0];
             let findings = program["findings"].as_array().into_iter().flatten();
             lines.extend(findings.filter(|own| own["severity"] != "note").map(|own| finding(own, "")));
+            if lines.is_empty() {
+                lines.push("None found.".to_owned());
+            }
             let skipped = program["not_checked"].as_array().into_iter().flatten();
             lines.extend(skipped.map(|own| {
                 let [what, why] = ["what", "why"].map(|name| escaped(own[name].as_str().unwrap_or_default()));
@@ -203,13 +206,9 @@ fn warnings(out: &mut String, facts: &Facts) {
         }
         Err(reason) => lines.push(format!("The program was not checked: {}", escaped(reason))),
     }
-    if lines.is_empty() {
-        out.push_str("<p>None.</p>\n");
-        return;
-    }
     let more = lines.len().saturating_sub(FINDINGS);
     let listed: String = lines.iter().take(FINDINGS).map(|line| format!("<li>{line}</li>\n")).collect();
-    let _ = write!(out, "<ul>{listed}</ul>\n");
+    let _ = writeln!(out, "<ul>{listed}</ul>");
     if more > 0 {
         let _ = writeln!(out, "<p class=\"bad\">And {more} further ones.</p>");
     }
