@@ -123,7 +123,7 @@ fn compare_as(
         ("option" = Option<Vec<String>>, Query, description = "Settings of the control: `NAME=VALUE`"),
         ("assume_milling" = Option<bool>, Query, description = "They are for a mill, whatever they look like"),
         ("tolerance" = Option<String>, Query, description = "Within how much two positions are the same, mm"),
-        ("form" = Option<String>, Query, description = "`json` (without it) or `html`"),
+        ("form" = Option<String>, Query, pattern = "^(json|html)$", description = "`json` (without it) or `html`"),
         ("If-None-Match" = Option<String>, Header),
     ),
     responses(
