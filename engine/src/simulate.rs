@@ -22,11 +22,19 @@ use ncc_driver::time::assumed;
 use ncc_driver::time::drive::{Unwatched, drive};
 use ncc_machines::Profile;
 use ncc_machines::project::Programs;
+#[cfg(not(target_arch = "wasm32"))]
+use ncc_simulate::Look;
 use ncc_simulate::{Face, Fixture, Stock, covered, faces};
 use ncc_time::Model;
 
 use crate::program::{Files, Outputs, is_given, machine_of, plan, row, side, warn};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::request::drawn::{Form, Picture, View};
 use crate::request::{One, Seek, Simulate};
+
+/// Pixels along the longer side of a picture.
+#[cfg(not(target_arch = "wasm32"))]
+const PIXELS: usize = 1200;
 
 /// The program that was cut last.
 pub(crate) type Kept = Option<Box<CutProgram>>;
@@ -294,4 +302,17 @@ pub(crate) fn stl(kept: &Kept) -> Result<(Exit, Outputs), Problem> {
     let bytes = parts::stl(cut.simulation.map(), parts::floor(cut));
     let bytes = bytes.map_err(|e| Problem::file("write", "the part", &e))?;
     Ok((Exit::Done, vec![("stl", bytes)]))
+}
+
+/// A picture of the part that is shown.
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) fn picture(asked: &Picture, kept: &Kept) -> Result<(Exit, Outputs), Problem> {
+    let cut = kept.as_ref().ok_or(RequestFault::NothingCut)?;
+    let drawn = match (asked.form, asked.view) {
+        (Form::Svg, _) => parts::svg(cut, &asked.title).map(String::into_bytes),
+        (Form::Png, View::Plan) => parts::png(&parts::picture(cut, Look::Plan, PIXELS)),
+        (Form::Png, View::Corner) => parts::png(&parts::picture(cut, Look::Corner, PIXELS)),
+    };
+    let drawn = drawn.map_err(|e| Problem::file("write", "the picture", &e))?;
+    Ok((Exit::Done, vec![("picture", drawn)]))
 }

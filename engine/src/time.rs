@@ -2,6 +2,9 @@
 //!
 //! Not here: the clock (`ncc_driver::time`), and the forms of what is made of it.
 
+#[cfg(not(target_arch = "wasm32"))]
+pub(crate) mod drawn;
+
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -11,11 +14,12 @@ use ncc_driver::problem::{BrokenOff, Exit, Problem, RequestFault};
 use ncc_driver::render::json::entries;
 use ncc_driver::render::{About, Loudness, human};
 use ncc_driver::side::Side;
+use ncc_driver::source::Source;
 use ncc_driver::time::assumed;
 use ncc_driver::time::drive::{Course, Plan, Stage, Unwatched, drive};
 use ncc_driver::time::payload::{Fields, Header, Look, Shape, Writer};
 use ncc_driver::time::summary::{Report, Timing};
-use ncc_driver::time::tally::Tallier;
+use ncc_driver::time::tally::{Account, Tallier};
 use ncc_machines::Profile;
 use ncc_time::{AssumedFact, Model, ToolChangeOn};
 
@@ -109,13 +113,26 @@ pub(crate) fn summed_up(
     files: &Files,
     messages: &mut Buffer,
 ) -> Result<(Exit, Outputs), Problem> {
+    summed_up_by(asked, files, messages, |plan, source| {
+        let mut tallier = Tallier::new(&plan.machine);
+        let course = drive(plan, source, &mut tallier, &mut Unwatched)?;
+        Ok((course, tallier.finish()))
+    })
+}
+
+/// The same, where something else counts.
+fn summed_up_by(
+    asked: &Summary,
+    files: &Files,
+    messages: &mut Buffer,
+    count: impl FnOnce(&Plan, &mut Source) -> io::Result<(Course, Account)>,
+) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("time", &asked.file, &e);
     let asked = asked.time();
     let Ready { side: Side { mut source, job }, profile, model } = Ready::of(&asked, files, messages)?;
     let profile = profile.as_deref();
     let (plan, unstated) = planned(&asked, &job, profile, model);
-    let mut tallier = Tallier::new(&plan.machine);
-    let course = drive(&plan, &mut source, &mut tallier, &mut Unwatched).map_err(cannot)?;
+    let (course, account) = count(&plan, &mut source).map_err(cannot)?;
     let shown = source.shown.clone();
     let mut about = About { job: &job, name: &shown, source: &mut source.file };
     human::print(messages, &mut about, &course.diagnostics, Loudness::Usual).map_err(cannot)?;
@@ -131,7 +148,7 @@ pub(crate) fn summed_up(
         return Ok((Exit::Refused, outputs));
     }
     let assumed = assumptions(&plan, profile, &unstated, &course);
-    let timing = Timing::of(&asked.file, &plan, &course, assumed, tallier.finish());
+    let timing = Timing::of(&asked.file, &plan, &course, assumed, account);
     let report = Report {
         ncc_time: 1,
         ncc_version: env!("CARGO_PKG_VERSION"),

@@ -101,6 +101,12 @@ fn verb(
         Request::Simulate(asked) => simulate::simulate(asked, files, kept, messages),
         Request::Seek(asked) => simulate::seek(*asked, kept),
         Request::Stl(_) => simulate::stl(kept),
+        #[cfg(not(target_arch = "wasm32"))]
+        Request::Chart(asked) => time::drawn::chart(asked, files, messages),
+        #[cfg(not(target_arch = "wasm32"))]
+        Request::Picture(asked) => simulate::picture(asked, kept),
+        #[cfg(not(target_arch = "wasm32"))]
+        Request::Sheet(asked) => time::drawn::sheet(asked, files, messages),
         Request::Dialects(_) => {
             let all: Vec<_> = ncc_dialects::builtins()
                 .map(|dialect| serde_json::json!({ "id": dialect.id, "title": dialect.title }))
@@ -260,7 +266,18 @@ fn differ(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outp
     let account = Account::of(&found, &mut sides).map_err(cannot)?;
     let mut document = Vec::new();
     json::write(&mut document, &account).map_err(cannot)?;
-    Ok((if account.equal { Exit::Done } else { Exit::Refused }, vec![("document", document)]))
+    #[cfg_attr(
+        target_arch = "wasm32",
+        expect(unused_mut, reason = "a page of its own is for the other hosts")
+    )]
+    let mut outputs = vec![("document", document)];
+    #[cfg(not(target_arch = "wasm32"))]
+    {
+        let mut page = Vec::new();
+        ncc_driver::review::diff::html::write(&mut page, &account).map_err(cannot)?;
+        outputs.push(("page", page));
+    }
+    Ok((if account.equal { Exit::Done } else { Exit::Refused }, outputs))
 }
 
 fn verified(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {

@@ -21,6 +21,7 @@ mod access;
 mod api;
 mod case_study;
 mod chance;
+mod comparing;
 mod compiler;
 mod facts;
 mod http;

@@ -1,4 +1,5 @@
-//! Workers: those of jobs, of which each claims a task, does it, and ends it; and those that compute facts of programs.
+//! Workers: those of jobs, of which each claims a task, does it, and ends it; and those that compute facts of programs
+//! and compare revisions.
 //!
 //! A worker that is asked to stop gives its task back. One that is killed cannot: its task is claimed again after a while.
 
@@ -14,7 +15,8 @@ use tokio::sync::watch;
 
 use crate::Shared;
 use crate::access::{Caller, guard};
-use crate::facts::{Next, next};
+use crate::comparing;
+use crate::facts::{self, Next};
 use crate::http::Problem;
 use crate::rights::Who;
 use crate::store::{End, Store, Task};
@@ -128,7 +130,7 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
     }
 }
 
-/// Computes facts of programs that wait for them, until it is asked to stop.
+/// Computes facts of programs that wait for them, and then comparisons of revisions, until it is asked to stop.
 pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
     let Ok(name) = crate::api::new_id() else {
         crate::observe::fault("a worker has no name: the system gives no random bytes");
@@ -141,9 +143,15 @@ pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver
     while !*stop.borrow() {
         let worker = name.clone();
         // A thread of the compiler is taken only where there is something to do, and the claim begins with it.
-        let done = match shared.store(&caller, |store| Ok(store.facts_wait()?)).await {
-            Ok(false) => Ok(Next::Nothing),
-            Ok(true) => shared.compile_in_turn(&caller, move |store| next(store, &worker, limit)).await,
+        let wait = |store: &Store| Ok([store.facts_wait()?, store.comparisons_wait()?]);
+        let done = match shared.store(&caller, wait).await {
+            Ok([false, false]) => Ok(Next::Nothing),
+            Ok([true, _]) => {
+                shared.compile_in_turn(&caller, move |store| facts::next(store, &worker, limit)).await
+            }
+            Ok([false, true]) => {
+                shared.compile_in_turn(&caller, move |store| comparing::next(store, &worker, limit)).await
+            }
             Err(problem) => Err(problem),
         };
         match done {
@@ -152,7 +160,7 @@ pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver
             Ok(Next::Stopped) => return,
             Err(problem) => {
                 crate::observe::fault(&format!(
-                    "the facts of a program were not computed: {}",
+                    "facts or a comparison of a program were not computed: {}",
                     problem.detail()
                 ));
                 let _ = tokio::time::timeout(GLANCE * 20, stop.changed()).await;

@@ -9,6 +9,7 @@ mod jobs;
 mod limits;
 mod names;
 mod observe;
+mod outputs;
 mod parts;
 mod programs;
 mod search;

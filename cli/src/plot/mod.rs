@@ -16,9 +16,9 @@ use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::job::Output;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::source::Source;
-use ncc_driver::time::drive::{Plan, Said, Sink};
+use ncc_driver::time::drive::Plan;
+use ncc_driver::time::recorder::Recorder;
 use ncc_plot::{Listing, Page, Record, charts, report, view};
-use ncc_time::Timed;
 
 use self::args::Plot;
 use crate::files::Destination;
@@ -31,20 +31,6 @@ use crate::time::{self, Shop};
 enum Form {
     Svg,
     Html,
-}
-
-/// Takes functions into a record.
-struct Recorder(Record);
-
-impl Sink for Recorder {
-    fn wants_turns(&self) -> bool {
-        true
-    }
-
-    fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
-        self.0.push(timed, said.turned.as_deref());
-        Ok(())
-    }
 }
 
 /// Runs the verb.

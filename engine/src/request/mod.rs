@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+#[cfg(not(target_arch = "wasm32"))]
+pub mod drawn;
 mod one;
 mod time;
 
@@ -33,7 +35,8 @@ pub enum Request {
     /// Executes a program with a clock, and sums up. Outputs: `document` (as of `ncc time --as json`), `tools` (as of `ncc time
     /// --as tools`), `messages`; if they are wanted, `findings`, and `called`: a list of the files whose programs it calls.
     Summary(Summary),
-    /// Compares what two programs do. Outputs: `document` (as of `ncc diff --format json`), `messages`.
+    /// Compares what two programs do. Outputs: `document` (as of `ncc diff --format json`), `messages`; but in a page `page`
+    /// too, as of `ncc diff --html`.
     Diff(Two),
     /// Compares them as strictly as a translation is verified. Outputs: `document` (the certificate), `messages`.
     Verify(Two),
@@ -73,6 +76,16 @@ pub enum Request {
     Stl(Nothing),
     /// Lists the dialects. Output: `document`, a list of objects with `id` and `title`.
     Dialects(Nothing),
+    /// Draws a program over time. Outputs: `picture` (SVG), `messages`. The engine of a page has no such verb.
+    #[cfg(not(target_arch = "wasm32"))]
+    Chart(drawn::Chart),
+    /// Draws the part as it is shown. Output: `picture`. The engine of a page has no such verb.
+    #[cfg(not(target_arch = "wasm32"))]
+    Picture(drawn::Picture),
+    /// Sums up as `summary` does, for a setup sheet. Outputs: those of `summary`, and `used`: `tools`, each with its
+    /// `coolants`, and `offsets`. The engine of a page has no such verb.
+    #[cfg(not(target_arch = "wasm32"))]
+    Sheet(Summary),
 }
 
 /// A message.

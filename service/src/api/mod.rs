@@ -12,20 +12,26 @@
 //! GET    /api/v1/programs/ID/revisions/N        what was known of it then
 //! GET    /api/v1/programs/ID/revisions/N/text   its text then
 //! POST   /api/v1/programs/ID/revisions/N/restore
-//! GET    /api/v1/programs/ID/outputs/WHAT       times, tools, checks ([`outputs`])
+//! GET    /api/v1/programs/ID/outputs/WHAT       times, tools, checks, pictures, a setup sheet ([`outputs`])
+//! GET    /api/v1/programs/ID/comparison         two revisions by their motion ([`comparison`])
 //! GET    /api/v1/programs/ID/facts              what it does, as it is searched by
 //! GET    /api/v1/search                         programs by what they say and do ([`search`])
 //! ```
 //!
 //! Every change makes a revision, so nothing is overwritten. The tag of a program is the number of its revision.
 
+mod comparison;
 mod document;
+mod executed;
 mod folders;
 mod jobs;
+mod operations;
 mod outputs;
+mod page;
 mod programs;
 mod revisions;
 mod search;
+mod sheet;
 mod states;
 mod texts;
 mod translations;
@@ -38,6 +44,7 @@ use utoipa_axum::routes;
 
 use crate::Shared;
 
+pub(crate) use self::comparison::compare;
 pub(crate) use self::document::fits;
 pub(crate) use self::programs::new_id;
 
@@ -53,6 +60,7 @@ pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
         .routes(routes!(texts::read_revision))
         .routes(routes!(revisions::restore))
         .routes(routes!(outputs::read))
+        .routes(routes!(comparison::read))
         .routes(routes!(search::facts))
         .routes(routes!(search::search))
         .routes(routes!(translations::list, translations::create))

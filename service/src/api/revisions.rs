@@ -19,10 +19,28 @@ use crate::http::{self, Problem};
 /// Group of the addresses in the description.
 const TAG: &str = "programs";
 
+/// A revision in the list.
+#[derive(Debug, Serialize, ToSchema)]
+struct Listed {
+    #[serde(flatten)]
+    revision: Program,
+    /// The motion of this revision and of the one before it; none of the first revision.
+    comparison: Option<Compared>,
+}
+
+/// A comparison with the revision before.
+#[derive(Debug, Serialize, ToSchema)]
+struct Compared {
+    /// `equal`, `different`, `not-compared`; `waiting` where it is not known yet.
+    state: &'static str,
+    /// The same in a line; empty where it is not known yet.
+    line: String,
+}
+
 /// A page of revisions.
 #[derive(Debug, Serialize, ToSchema)]
 struct Revisions {
-    revisions: Vec<Program>,
+    revisions: Vec<Listed>,
     /// Value of `before` for the next page.
     next: Option<i64>,
 }
@@ -45,10 +63,22 @@ pub(super) async fn list(
     let before = query.number("before")?.unwrap_or(i64::MAX);
     let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
     query.end("before, limit")?;
-    let listed = shared.store(&caller, move |store| Ok(store.revisions(&id, before, most)?)).await?;
+    let (listed, mut comparisons) = shared
+        .store(&caller, move |store| {
+            let listed = store.revisions(&id, before, most)?;
+            let ends = [listed.last(), listed.first()].map(|end| end.map_or(0, |end| end.number));
+            let comparisons = store.comparisons(&id, ends)?;
+            Ok((listed, comparisons))
+        })
+        .await?;
     let next = listed.last().filter(|last| last.number > 1).map(|last| last.number);
     let next = next.filter(|_| listed.len() == most as usize);
-    Ok(http::json(&Revisions { revisions: listed.iter().map(document).collect(), next }))
+    let revisions = listed.iter().map(|of| {
+        let comparison = comparisons.remove(&of.number);
+        let comparison = comparison.map(|own| Compared { state: own.verdict.name(), line: own.line });
+        Listed { revision: document(of), comparison }
+    });
+    Ok(http::json(&Revisions { revisions: revisions.collect(), next }))
 }
 
 /// Gives what was known of a program in a revision.

@@ -30,13 +30,13 @@ pub(crate) fn line(facts: &Value) -> String {
 }
 
 /// Hours, minutes and seconds.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     let all = seconds.round() as u64;
     format!("{}:{:02}:{:02}", all / 3600, all / 60 % 60, all % 60)
 }
 
-/// Millimetres without zeros at the end.
-fn short(mm: f64) -> String {
+/// A value to a thousandth, without zeros at the end.
+pub(crate) fn short(mm: f64) -> String {
     let text = format!("{mm:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

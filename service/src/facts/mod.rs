@@ -28,7 +28,7 @@ use crate::http::Problem;
 use crate::store::{CALLS_ABSENT, Claimed, Computed, Revision, Store, Term, calls};
 use crate::translating::{NOT_THERE, calls_the_same, dictionary, profile, run_with_called, stale};
 
-pub(crate) use self::line::line;
+pub(crate) use self::line::{duration, line, short};
 use self::words::Words;
 pub(crate) use self::words::{code, words};
 

@@ -1,13 +1,15 @@
 //! The data of the service, in a database.
 //!
 //! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`;
-//! `documents`, `machines`, `programs` and their `contents` are what is kept, `facts` what programs do, `search` finds them,
+//! `documents`, `machines`, `programs` and their `contents` are what is kept, `facts` what programs do, `comparisons` what
+//! revisions changed, `search` finds them,
 //! and `backup` copies all of it. Every change is one transaction: it is there as a whole, or not at all. Not here: what a
 //! document says, and HTTP.
 
 mod accounts;
 mod audit;
 mod backup;
+mod comparisons;
 mod contents;
 mod database;
 mod documents;
@@ -36,6 +38,7 @@ use crate::rights::{Act, Who};
 pub(crate) use self::accounts::{Account, AccountChange};
 pub(crate) use self::audit::{Entry, Filter};
 pub(crate) use self::backup::{backup, restore};
+pub(crate) use self::comparisons::{Comparison, Pair, Verdict};
 pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::facts::{CALLS_ABSENT, Claimed, Computed, Term, calls};

@@ -6,6 +6,7 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::comparisons::wait;
 use super::contents::{Content, Receiving, settle};
 use super::documents::now;
 use super::facts::changed;
@@ -469,6 +470,7 @@ fn insert(
             made
         ],
     )?;
+    wait(to, program, number, made)?;
     to.change(
         "UPDATE program SET folder = $2, name = $3, head = $4, is_deleted = $5 WHERE id = $1",
         values![program, &details.folder, &details.name, number, change == Change::Deleted],

@@ -182,7 +182,7 @@ impl Rooms {
     }
 
     /// Moves of a program at most, where its path is asked for.
-    pub(super) fn moves(&self) -> usize {
+    pub(crate) fn moves(&self) -> usize {
         self.moves
     }
 

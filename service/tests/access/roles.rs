@@ -100,6 +100,7 @@ fn programs() -> Vec<Row> {
             200,
             404,
         ),
+        row("GET", "/api/v1/programs/{program}/comparison", "?from=1&to=1", "reader", 200, 404),
         row("GET", "/api/v1/programs/{program}/facts", "", "reader", 200, 404),
         row("GET", "/api/v1/search", "", "none", 200, 0),
         row("GET", "/api/v1/translations", "", "none", 200, 0),
