@@ -1,11 +1,16 @@
 #!/usr/bin/env python3
-"""Kills `ncc serve` at random moments while documents are written, and looks for each acknowledged write afterwards.
+"""Kills `ncc serve` at random moments while documents and programs are written, and looks for each acknowledged write afterwards.
 
     python3 service/tests/kill.py BINARY ROUNDS [--full-disk FOLDER]
 
+The database is a file that is made for this, or the empty one that NCC_DATABASE_URL names.
+
 Each round starts the server on the database of the round before. Writers POST, PUT and DELETE documents of their own, a few
-names each; then the process is sent SIGKILL. After the next start each document must be the last one that was acknowledged,
-or the one that was being written when the process ended; its parts must all be of one document, and its tag theirs.
+names each; others make programs and revisions of them; then the process is sent SIGKILL. After the next start each document
+must be the last one that was acknowledged, or the one that was being written when the process ended; its parts must all be of
+one document, and its tag theirs. Each program must have all revisions that were acknowledged, in order, and at most the one
+more that was being written; each text must have the digest of its revision. Every tenth round begins a job, and at the end
+each job must have ended, each of its programs once.
 
 With `--full-disk` a folder on a small file system is filled instead: writes must end with 507, and none that was
 acknowledged may be lost, also after a SIGKILL and a start on the full disk.
@@ -32,8 +37,9 @@ WHOLE = "application/vnd.ncc.document+json"
 
 class Server:
     def __init__(self, binary, database):
+        place = ["--database", database] if database else []
         self.process = subprocess.Popen(
-            [binary, "serve", "--listen", "127.0.0.1:0", "--database", database],
+            [binary, "serve", "--listen", "127.0.0.1:0", *place],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -159,6 +165,131 @@ def whole(connection, name, wrong):
     return tag
 
 
+class Reviser(threading.Thread):
+    """Makes programs of its own, and revisions of them.
+
+    `programs[name]` has the `id` of the program, the digests of its `revisions`, and the text that is being `sent`: as a
+    revision that may be there.
+    """
+
+    def __init__(self, server, number, programs, seed):
+        super().__init__()
+        self.server, self.number, self.programs = server, number, programs
+        self.random = random.Random(seed)
+        self.acknowledged = 0
+        self.wrong = []
+
+    def run(self):
+        try:
+            connection = self.server.connect()
+            while not self.wrong:
+                self.write(connection, f"r{self.number}-{self.random.randrange(NAMES)}.nc")
+        except (OSError, http.client.HTTPException):
+            pass
+
+    def write(self, connection, name):
+        own = self.programs.setdefault(name, {"id": None, "revisions": [], "sent": None})
+        if own["sent"] is None:
+            blocks = self.random.choice([1, 100, 20_000])
+            own["sent"] = f"T1 M6\nG0 X{self.random.randrange(10**6)}\n" + "G1 X1. F100.\n" * blocks
+        headers = {"Content-Type": "text/plain"}
+        if own["id"] is None:
+            # Sent again with its key after a round that broke off, it is done once.
+            headers["Idempotency-Key"] = name
+            method, path, status = "POST", f"/api/v1/programs?name={name}&folder=kill&dialect=fanuc", 201
+        else:
+            headers["If-Match"] = f'"{len(own["revisions"])}"'
+            method, path, status = "PUT", f"/api/v1/programs/{own['id']}/text", 200
+        connection.request(method, path, body=own["sent"], headers=headers)
+        answer = connection.getresponse()
+        text = answer.read()
+        if answer.status != status:
+            self.wrong.append(f"{method} {name}: {answer.status} {text[:300]}")
+            return
+        own["id"] = json.loads(text)["id"]
+        own["revisions"].append(digest(own["sent"]))
+        own["sent"] = None
+        self.acknowledged += 1
+
+
+def digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def read(connection, path):
+    connection.request("GET", path)
+    answer = connection.getresponse()
+    return answer.status, answer.read()
+
+
+def compare_programs(server, programs):
+    """What is wrong with the programs and their revisions."""
+    wrong = []
+    connection = server.connect()
+    for name, own in sorted(programs.items()):
+        if own["id"] is None:
+            continue
+        path = f"/api/v1/programs/{own['id']}"
+        status, text = read(connection, path + "/revisions?limit=1000")
+        if status != 200:
+            wrong.append(f"{name}: {status} {text[:300]}")
+            continue
+        rows = list(reversed(json.loads(text)["revisions"]))
+        there = [row["sha256"] for row in rows]
+        kept = own["revisions"][-len(there):] if len(own["revisions"]) > 1000 else own["revisions"]
+        more = [digest(own["sent"])] if own["sent"] is not None else []
+        if there != kept and there != (kept + more)[-len(there):]:
+            wrong.append(f"{name}: there are {len(there)} revisions, and {len(kept)} were acknowledged")
+        elif there != kept:
+            own["revisions"] += more
+        if [row["revision"] for row in rows] != list(range(rows[0]["revision"], rows[0]["revision"] + len(rows))):
+            wrong.append(f"{name}: the revisions do not follow each other")
+        last = rows[-1]
+        status, text = read(connection, f"{path}/revisions/{last['revision']}/text")
+        if status != 200 or hashlib.sha256(text).hexdigest() != last["sha256"]:
+            wrong.append(f"{name}: the text of revision {last['revision']} is another one")
+        own["sent"] = None
+    connection.close()
+    return wrong
+
+
+def begin_job(server, programs):
+    """A job over the programs that are there."""
+    connection = server.connect()
+    ids = [own["id"] for own in programs.values() if own["id"] is not None]
+    if not ids:
+        return None
+    body = json.dumps({"programs": ids, "to": "haas", "assume": True})
+    connection.request("POST", "/api/v1/jobs", body=body, headers={"Content-Type": "application/json"})
+    answer = connection.getresponse()
+    job = json.loads(answer.read())
+    connection.close()
+    return (job["id"], ids) if answer.status == 202 else None
+
+
+def compare_jobs(server, jobs):
+    """What is wrong with the jobs, after all of them have had time to end."""
+    wrong = []
+    connection = server.connect()
+    until = time.monotonic() + 180
+    for job, ids in jobs:
+        while True:
+            state = json.loads(read(connection, f"/api/v1/jobs/{job}")[1])
+            if state["ended"] is not None:
+                break
+            if time.monotonic() > until:
+                wrong.append(f"job {job} has not ended: {state['tasks']}")
+                break
+            time.sleep(0.2)
+        results = json.loads(read(connection, f"/api/v1/jobs/{job}/results?limit=1000")[1])["results"]
+        if [row["program"] for row in results] != ids:
+            wrong.append(f"job {job} has other programs than it was given")
+        if any(row["state"] not in ("done", "refused") for row in results):
+            wrong.append(f"job {job}: {state['tasks']}")
+    connection.close()
+    return wrong
+
+
 def compare(server, states):
     """What is wrong with what is there."""
     wrong = []
@@ -187,15 +318,24 @@ def write_for(server, states, seconds, seed, largest):
 
 def killed(binary, rounds):
     folder = tempfile.TemporaryDirectory()
-    database = os.path.join(folder.name, "ncc.sqlite")
-    states, acknowledged, open_writes, wrong = {}, 0, 0, []
+    database = None if os.environ.get("NCC_DATABASE_URL") else os.path.join(folder.name, "ncc.sqlite")
+    states, programs, jobs, acknowledged, revisions, open_writes, wrong = {}, {}, [], 0, 0, 0, []
     chance = random.Random(20230711)
     for k in range(rounds):
         server = Server(binary, database)
-        wrong += [f"round {k}: {words}" for words in compare(server, states)]
+        wrong += [f"round {k}: {words}" for words in compare(server, states) + compare_programs(server, programs)]
+        if k % 10 == 9:
+            jobs += [job for job in [begin_job(server, programs)] if job]
+        revisers = [Reviser(server, n, programs, 1000 + k * 2 + n) for n in range(2)]
+        for reviser in revisers:
+            reviser.start()
         # Some documents are larger than a piece of the database (1 MiB).
         writers = write_for(server, states, chance.uniform(0.0, 0.4), k * WRITERS, 4000 if k % 10 == 0 else 200)
         server.kill()
+        for reviser in revisers:
+            reviser.join()
+            revisions += reviser.acknowledged
+            wrong += [f"round {k}: {words}" for words in reviser.wrong]
         for writer in writers:
             writer.join()
             acknowledged += writer.acknowledged
@@ -204,9 +344,12 @@ def killed(binary, rounds):
         if wrong:
             break
     server = Server(binary, database)
-    wrong += compare(server, states)
+    wrong += compare(server, states) + compare_programs(server, programs) + compare_jobs(server, jobs)
     server.kill()
-    print(f"{k + 1} rounds, {acknowledged} writes acknowledged, {open_writes} broken off, {len(wrong)} faults")
+    print(
+        f"{k + 1} rounds, {acknowledged} documents and {revisions} revisions acknowledged, {open_writes} documents broken "
+        f"off, {len(jobs)} jobs, {len(wrong)} faults"
+    )
     return wrong
 
 

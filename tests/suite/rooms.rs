@@ -42,7 +42,19 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("studio/host", &["ncc-engine", "ncc-exec"]),
-    ("service", &["ncc-dialects", "ncc-driver", "ncc-engine", "ncc-exec", "ncc-machines", "ncc-studio"]),
+    (
+        "service",
+        // The lexers split a program into the words by which it is found.
+        &[
+            "ncc-dialects",
+            "ncc-driver",
+            "ncc-engine",
+            "ncc-exec",
+            "ncc-frontends",
+            "ncc-machines",
+            "ncc-studio",
+        ],
+    ),
     (
         "engine",
         &[

@@ -53,7 +53,9 @@ pub(super) fn unusable(reason: &str) -> Problem {
     }
 }
 
-/// The name of the user of this computer.
-pub(super) fn user_of_the_computer() -> Option<String> {
-    ["USER", "USERNAME"].iter().find_map(|name| std::env::var(name).ok()).filter(|name| !name.is_empty())
+/// The name under which changes are kept: the stated one, or that of the user of this computer.
+pub(super) fn author(stated: Option<&str>) -> String {
+    let of_the_computer = || ["USER", "USERNAME"].iter().find_map(|name| std::env::var(name).ok());
+    let name = stated.map(str::to_owned).filter(|name| !name.is_empty()).or_else(of_the_computer);
+    name.filter(|name| !name.is_empty()).unwrap_or_else(|| "unknown".to_owned())
 }

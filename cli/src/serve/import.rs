@@ -17,8 +17,7 @@ use ncc_driver::render::numbers::plural;
 use ncc_driver::source::Source;
 use ncc_service::{Entry, Imported, NotImported};
 
-use super::author;
-use super::database::{Database, unusable};
+use super::database::{Database, author, unusable};
 use crate::batch::gather::{Gathered, Item, gather};
 use crate::files;
 
@@ -84,7 +83,7 @@ pub(super) fn run(args: &Import, err: &mut dyn WriteColor) -> Result<Exit, Probl
             format!("one of: {}", all.join(", ")),
         ));
     }
-    let import = ncc_service::Import::open(&args.database.place()?, &author(args.author.as_ref()));
+    let import = ncc_service::Import::open(&args.database.place()?, &author(args.author.as_deref()));
     let import = import.map_err(|why| unusable(&why))?;
     if let Some(name) = &args.machine
         && !import.has_machine(name).map_err(|why| unusable(&why))?

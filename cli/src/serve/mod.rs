@@ -16,7 +16,7 @@ use ncc_driver::problem::{Exit, Problem};
 use ncc_service::{Listen, LogForm, LogLevel, OpenError, Part, Service};
 
 pub use self::database::Database;
-use self::database::{unusable, user_of_the_computer};
+use self::database::{author, unusable};
 pub use self::users::User;
 use crate::files;
 
@@ -122,12 +122,6 @@ pub enum Only {
     Output,
 }
 
-/// The name under which changes are kept.
-fn author(stated: Option<&String>) -> String {
-    let stated = stated.cloned().filter(|name| !name.is_empty());
-    stated.or_else(user_of_the_computer).unwrap_or_else(|| "unknown".to_owned())
-}
-
 /// The services that the command line asks for.
 fn part(args: &Serve) -> Result<Part, Problem> {
     let elsewhere = || {
@@ -193,7 +187,7 @@ fn log(args: &Serve) {
 
 fn serve(args: &Serve) -> Result<(), Problem> {
     log(args);
-    let service = Service::open(listen(args), &part(args)?, &author(args.author.as_ref())).map_err(|error| match error {
+    let service = Service::open(listen(args), &part(args)?, &author(args.author.as_deref())).map_err(|error| match error {
         OpenError::NoAccount => Problem::usage(
             "other computers could ask, and there is no account",
             "make one: ncc serve user add NAME --role admin; or answer this computer alone: --listen 127.0.0.1:8274",

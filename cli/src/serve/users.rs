@@ -10,7 +10,7 @@ use clap::{Args, Subcommand};
 use ncc_driver::problem::{Exit, Problem};
 use ncc_service::{Role, Scope, Users, UsersError};
 
-use super::database::{Database, user_of_the_computer};
+use super::database::{Database, author};
 use crate::files;
 
 /// Bytes of a password that are read at most.
@@ -81,8 +81,7 @@ fn problem(error: UsersError) -> Problem {
 }
 
 fn open(database: &Database) -> Result<Users, Problem> {
-    let author = user_of_the_computer().unwrap_or_else(|| "unknown".to_owned());
-    Users::open(&database.place()?, &author).map_err(|error| super::database::unusable(&error.reason))
+    Users::open(&database.place()?, &author(None)).map_err(|error| super::database::unusable(&error.reason))
 }
 
 /// Reads a password: without echo from a terminal, twice, or a line from a pipe.

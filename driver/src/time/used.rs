@@ -19,7 +19,7 @@ use crate::render::spelled;
 pub struct Cooled {
     /// Its number; `None` is the one in the spindle at the start.
     pub tool: Option<i64>,
-    /// `off`, `flood`, `mist` or `flood and mist`, each once, in the order of its moves.
+    /// `off`, `flood`, `mist` or `flood+mist`, each once, in the order of its moves.
     pub coolants: Vec<&'static str>,
 }
 
@@ -29,7 +29,7 @@ fn words(on: Coolant) -> &'static str {
         (false, false) => "off",
         (true, false) => "flood",
         (false, true) => "mist",
-        (true, true) => "flood and mist",
+        (true, true) => "flood+mist",
     }
 }
 
