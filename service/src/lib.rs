@@ -14,7 +14,7 @@
 //! state is in a process but the store's connections. Programs are read from requests alone: no file of the server is
 //! readable through a program's calls. Work of the compiler has limits of time, size and number (`work`).
 //!
-//! It answers this computer alone, without a login, until there is an account. Others need accounts ([`access`]). Not here:
+//! It answers this computer alone, without a login, until there is an account. Others need accounts (`access`). Not here:
 //! the compiler (`ncc_engine`, `ncc_driver`), the command line.
 
 mod access;
