@@ -13,6 +13,9 @@ use super::{Place, StoreError};
 /// Time limit of a writer that waits for the lock, and of a request that waits for a connection.
 pub(super) const PATIENCE: Duration = Duration::from_secs(10);
 
+/// Time after which an idle connection is closed, but for the last one. A database server has few for many processes.
+const IDLE: Duration = Duration::from_secs(10);
+
 /// Connections at most.
 const CONNECTIONS: u32 = 16;
 
@@ -26,6 +29,7 @@ fn pool<M: ManageConnection>(manager: M) -> Result<Pool<M>, StoreError> {
     Pool::builder()
         .max_size(CONNECTIONS)
         .min_idle(Some(1))
+        .idle_timeout(Some(IDLE))
         .connection_timeout(PATIENCE)
         .test_on_check_out(false)
         .build(manager)
