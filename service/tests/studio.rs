@@ -1,4 +1,4 @@
-//! The studio's page and the engines behind it: headers, limits, and whose a room is.
+//! The studio's page and its engines: headers, limits, and rooms of users.
 
 use std::thread;
 use std::time::{Duration, Instant};

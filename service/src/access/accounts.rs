@@ -24,7 +24,6 @@ use super::checks::{self, password_fits};
 use super::guard::now_needed;
 use super::sessions::not_compared;
 use crate::Shared;
-use crate::http::body::LISTED;
 use crate::http::query::Query;
 use crate::http::{self, Problem, body};
 use crate::rights::{Act, Right};
@@ -122,7 +121,7 @@ pub(super) async fn list(
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let after = query.one("after")?.unwrap_or_default();
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("after, limit")?;
     let accounts = shared.store(&caller, move |store| Ok(store.accounts(&after, most)?)).await?;
     let next = accounts.last().filter(|_| accounts.len() == most as usize).map(|last| last.name.clone());

@@ -148,7 +148,7 @@ pub(super) async fn read(
         return Ok((headers, Body::from_stream(lines(shared, caller, filter))).into_response());
     }
     let before = query.number("before")?.unwrap_or(i64::MAX);
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("form, account, subject, action, from, until, before, limit")?;
     let entries = shared.store(&caller, move |store| Ok(store.audit(&filter, before, most)?)).await?;
     let next = entries.last().filter(|_| entries.len() == most as usize).map(|last| last.number);

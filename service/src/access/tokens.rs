@@ -21,7 +21,6 @@ use utoipa::ToSchema;
 use super::caller::Caller;
 use super::secrets;
 use crate::Shared;
-use crate::http::body::LISTED;
 use crate::http::query::Query;
 use crate::http::{self, Problem, body};
 use crate::rights::Scope;
@@ -165,7 +164,7 @@ pub(super) async fn list(
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let after = query.one("after")?.unwrap_or_default();
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("after, limit")?;
     caller.login()?;
     let tokens = shared.store(&caller, move |store| Ok(store.tokens(&after, most)?)).await?;

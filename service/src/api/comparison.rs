@@ -26,7 +26,7 @@ use crate::http::query::Query;
 use crate::store::{Revision, Store};
 use crate::translating::run_with_called;
 
-/// What is compared, from the address.
+/// A comparison, from the address.
 struct Asked {
     from: Option<i64>,
     to: Option<i64>,

@@ -30,7 +30,7 @@ use super::document::folder;
 use super::programs::new_id;
 use crate::Shared;
 use crate::access::Caller;
-use crate::http::body::{self, LISTED};
+use crate::http::body;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
 use crate::rights::Act;
@@ -203,7 +203,7 @@ pub(super) async fn list(
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let before = query.one("before")?;
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("before, limit")?;
     let jobs = shared.store(&caller, move |store| Ok(store.jobs(before.as_deref(), most)?)).await?;
     let next = jobs.last().filter(|_| jobs.len() == most as usize).map(|last| last.id.clone());
@@ -261,7 +261,7 @@ pub(super) async fn results(
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let after = query.number("after")?.unwrap_or(0);
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("after, limit")?;
     let all = shared.store(&caller, move |store| Ok(store.results(&id, after, most)?)).await?;
     let next = all.last().filter(|_| all.len() == most as usize).map(|last| last.number);

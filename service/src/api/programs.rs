@@ -16,7 +16,7 @@ use super::document::{
 use super::texts::receive;
 use crate::Shared;
 use crate::access::Caller;
-use crate::http::body::{self, LISTED};
+use crate::http::body;
 use crate::http::conditions::expected;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -130,7 +130,7 @@ pub(super) async fn list(
         deleted: query.among("deleted", &[("true", true), ("false", false)])?.unwrap_or(false),
         after: query.one("after")?,
         act: Act::Read,
-        most: query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]),
+        most: query.limit()?,
     };
     query.end("folder, under, name, tag, dialect, machine, deleted, after, limit")?;
     let most = wanted.most as usize;

@@ -11,7 +11,6 @@ use utoipa::ToSchema;
 use super::document::{Program, changed, document, number, said, told};
 use crate::Shared;
 use crate::access::Caller;
-use crate::http::body::LISTED;
 use crate::http::conditions::expected;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -61,7 +60,7 @@ pub(super) async fn list(
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let before = query.number("before")?.unwrap_or(i64::MAX);
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("before, limit")?;
     let (listed, mut comparisons) = shared
         .store(&caller, move |store| {

@@ -22,7 +22,6 @@ use super::document::{Program, document, folder};
 use crate::Shared;
 use crate::access::Caller;
 use crate::facts::{code, line, words};
-use crate::http::body::LISTED;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
 use crate::store::{Found, Hit, OfProgram, Range, Shown, Sought, State as Approval, calls};
@@ -110,7 +109,7 @@ fn sought(query: Option<&str>) -> Result<Sought, Problem> {
         state: query.among("state", &Approval::ALL)?,
         stale: query.among("stale", &[("true", true), ("false", false)])?,
         after: query.one("after")?,
-        most: query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]),
+        most: query.limit()?,
         ..Sought::default()
     };
     for place in [&sought.under, &sought.folder].into_iter().flatten() {
@@ -156,7 +155,7 @@ fn sought(query: Option<&str>) -> Result<Sought, Problem> {
     Ok(sought)
 }
 
-/// Facts as they are told; none before they are computed for the first time.
+/// The document of stored facts; none before the first computation.
 fn told(facts: &str) -> Option<Value> {
     serde_json::from_str(facts).ok()
 }

@@ -22,7 +22,7 @@ use utoipa::ToSchema;
 use super::programs::new_id;
 use crate::Shared;
 use crate::access::Caller;
-use crate::http::body::{self, LISTED};
+use crate::http::body;
 use crate::http::conditions::{etag, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -138,7 +138,7 @@ pub(super) async fn list(
     let program = query.one("program")?;
     let state = query.among("state", &Wanted::ALL)?;
     let after = query.one("after")?.unwrap_or_default();
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("program, state, after, limit")?;
     let (all, next) = shared
         .store(&caller, move |store| {
@@ -194,7 +194,7 @@ pub(super) async fn outcome(
     };
     let tag = etag(&id, &what);
     if is_known(&headers, &tag) {
-        // Who may not read it learns nothing by its tag.
+        // The tag reveals nothing without the right to read.
         shared.store(&caller, move |store| Ok(store.translation(&id)?)).await?;
         return Ok(not_modified(tag));
     }

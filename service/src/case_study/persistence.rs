@@ -19,7 +19,7 @@ use super::document::{self, AFTER, BEFORE, CMF, CMF_REFUSED, WHOLE_MEDIA, Whole}
 use super::shelf::{Found, whole};
 use crate::Shared;
 use crate::access::Caller;
-use crate::http::body::{self, LISTED, Name, encoded};
+use crate::http::body::{self, Name, encoded};
 use crate::http::conditions::{etag, expected, is_known, not_modified};
 use crate::http::query::Query;
 use crate::http::{self, Problem};
@@ -65,7 +65,7 @@ pub(super) async fn list(
 ) -> Result<Response, Problem> {
     let mut query = Query::of(query.as_deref());
     let after = query.one("after")?.unwrap_or_default();
-    let most = query.number("limit")?.unwrap_or(LISTED[0]).clamp(1, LISTED[1]);
+    let most = query.limit()?;
     query.end("after, limit")?;
     let listed = shared.keep(&caller, move |shelf| shelf.list(&after, most)).await?;
     // A full page has a next one, which may be empty.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use super::Problem;
+use super::body::LISTED;
 
 /// Names and values that have not been taken yet.
 #[derive(Debug)]
@@ -58,6 +59,15 @@ impl Query {
         let value = self.stated(name)?;
         let number = value.map(|value| value.parse().map_err(|_| value));
         number.transpose().map_err(|value| Problem::request(format!("`{name}` takes no `{value}`")))
+    }
+
+    /// Entries of a page of a list at most: `limit`.
+    ///
+    /// # Errors
+    /// As of [`Query::number`].
+    pub(crate) fn limit(&mut self) -> Result<u32, Problem> {
+        let [usual, most] = LISTED;
+        Ok(self.number("limit")?.unwrap_or(usual).clamp(1, most))
     }
 
     /// The values of a name, each a name and a value: `option=o_word=ignore`.

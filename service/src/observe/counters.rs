@@ -7,7 +7,7 @@
 //! | `ncc_requests_running` | |
 //! | `ncc_work_running`, `ncc_work_waiting` | pieces of work of the compiler |
 //! | `ncc_tasks` | state: programs of jobs |
-//! | `ncc_info` | version |
+//! | `ncc_build_info` | version |
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! The studio's page, and the engines behind it.
+//! The studio's page and its engines.
 //!
 //! ```text
 //! GET    /                                   the page; its files beside it

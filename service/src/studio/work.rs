@@ -148,7 +148,7 @@ pub(super) async fn run(
     let work = move || {
         let answer = ncc_studio::answer(&mut inside.engine, &request);
         counts.rooms.count(&room, &inside);
-        // What was stopped says so, and no more.
+        // A stopped request has no outputs.
         if ncc_exec::halt::is_asked() { Err(()) } else { Ok(answer) }
     };
     match shared.pool.run(work).await {

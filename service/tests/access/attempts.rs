@@ -86,14 +86,14 @@ fn guesses_are_counted() {
         }
     }
     assert_eq!(log_in(&server, "root", PASSWORD).status, 429);
-    // Who is logged in already stays so.
+    // Running sessions go on.
     let audit = root.get(&server, "/api/v1/audit?action=login.failed").json();
     let all = audit["audit"].as_array().expect("a list");
     assert_eq!(all.len(), 4);
     assert!(all.iter().all(|entry| entry["address"] == "127.0.0.1"), "{audit}");
 }
 
-/// What is no password takes neither memory nor time.
+/// A malformed password takes neither memory nor time.
 #[test]
 fn a_login_has_its_form() {
     let server = Server::limited(limits());

@@ -94,7 +94,7 @@ fn each_change_is_in_the_audit() {
     assert!(all[known..].iter().all(|[account, way, action, _]| {
         action == "login.failed" || (account == "root" && way == "login")
     }));
-    // What is refused changes nothing, and is not there.
+    // A refused request changes nothing and has no entry.
     let ben = with_rights(&server, &root, "eva", &[("", "reader")]);
     let before = entries(&server, &root, "").len();
     assert_eq!(ben.ask(&server, "DELETE", &path, &Value::Null).status, 403);

@@ -1,6 +1,12 @@
 //! Facts of a setup sheet, gathered.
 
+use ncc_driver::time::duration::short;
 use serde_json::Value;
+
+/// A value to a thousandth.
+pub(super) fn mm(value: f64) -> String {
+    short(value, 3)
+}
 
 /// The mark of a guess.
 pub(super) const GUESS: &str = "<mark>guess</mark>";
@@ -10,7 +16,7 @@ pub(super) struct Translated {
     pub(super) target: String,
     pub(super) state: &'static str,
     pub(super) revision: i64,
-    /// What has changed since it was made.
+    /// Its inputs that are others now.
     pub(super) stale: Vec<&'static str>,
 }
 

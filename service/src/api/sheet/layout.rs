@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::gathered::{Facts, GUESS, Translated};
+use super::gathered::{Facts, GUESS, Translated, mm};
 use super::tools;
 use crate::api::page::escaped;
-use crate::facts::{duration, short};
+use crate::facts::duration;
 
 /// Findings that a sheet lists.
 const FINDINGS: usize = 40;
@@ -120,7 +120,7 @@ fn set_up(out: &mut String, facts: &Facts) {
     fact(out, "Work offsets", &offsets);
     let extents = &timing["total"]["extents"];
     let axes = ["X", "Y", "Z"].iter().enumerate().filter_map(|(at, axis)| {
-        let ends = [extents[at][0].as_f64()?, extents[at][1].as_f64()?].map(short);
+        let ends = [extents[at][0].as_f64()?, extents[at][1].as_f64()?].map(mm);
         Some(format!("{axis} {} … {}", ends[0], ends[1]))
     });
     let axes: Vec<String> = axes.collect();
@@ -130,7 +130,7 @@ fn set_up(out: &mut String, facts: &Facts) {
         let raw = &document["programs"][0]["raw"];
         let guess = if raw["guessed"] == true { format!(" {GUESS}") } else { String::new() };
         let ends = (0..3).filter_map(|at| {
-            let [low, high] = [raw["low"][at].as_f64()?, raw["high"][at].as_f64()?].map(short);
+            let [low, high] = [raw["low"][at].as_f64()?, raw["high"][at].as_f64()?].map(mm);
             Some(format!("{} {low} … {high}", ["X", "Y", "Z"][at]))
         });
         let ends: Vec<String> = ends.collect();

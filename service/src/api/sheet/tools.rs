@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::gathered::{Facts, GUESS};
+use super::gathered::{Facts, GUESS, mm};
 use crate::api::page::escaped;
-use crate::facts::{duration, short};
+use crate::facts::duration;
 
 /// Writes the table of the tools.
 pub(super) fn table(out: &mut String, facts: &Facts) {
@@ -56,7 +56,7 @@ fn row(out: &mut String, facts: &Facts, tool: &Value) {
     let coolants: Vec<&str> = coolants.filter_map(Value::as_str).collect();
     let dash = |text: String| if text.is_empty() { "–".to_owned() } else { text };
     let seconds = |field: &str| duration(tool[field].as_f64().unwrap_or_default());
-    let deepest = tool["extents"][2][0].as_f64().map(short).unwrap_or_default();
+    let deepest = tool["extents"][2][0].as_f64().map(mm).unwrap_or_default();
     // Writing to a string cannot fail.
     let _ = writeln!(
         out,
@@ -76,7 +76,7 @@ fn row(out: &mut String, facts: &Facts, tool: &Value) {
 
 /// A least and a greatest value: `186` or `186…505`.
 fn range(pair: &Value) -> String {
-    match [pair[0].as_f64(), pair[1].as_f64()].map(|end| end.map(short)) {
+    match [pair[0].as_f64(), pair[1].as_f64()].map(|end| end.map(mm)) {
         [Some(least), Some(most)] if least == most => least,
         [Some(least), Some(most)] => format!("{least}…{most}"),
         _ => String::new(),
@@ -85,7 +85,7 @@ fn range(pair: &Value) -> String {
 
 /// The shape and the diameter of a tool, and where they are known from.
 fn shape(tool: &Value) -> String {
-    let diameter = tool["diameter"].as_f64().map(short).unwrap_or_default();
+    let diameter = tool["diameter"].as_f64().map(mm).unwrap_or_default();
     let known = match tool["known"].as_str() {
         Some("stated") => "<small>stated</small>".to_owned(),
         Some("profile") => "<small>machine profile</small>".to_owned(),
@@ -95,6 +95,6 @@ fn shape(tool: &Value) -> String {
     let shape = escaped(tool["shape"].as_str().unwrap_or_default());
     let is_guessed = tool["shape_guessed"] == true;
     let shape_known = if is_guessed { format!(" {GUESS}") } else { String::new() };
-    let angle = tool["angle"].as_f64().map(|angle| format!(", {}°", short(angle))).unwrap_or_default();
+    let angle = tool["angle"].as_f64().map(|angle| format!(", {}°", mm(angle))).unwrap_or_default();
     format!("⌀ {diameter} {known}<br>{shape}{angle}{shape_known}")
 }
