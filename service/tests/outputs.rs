@@ -50,6 +50,11 @@ fn operations_are_csv_and_json() {
         "{text}"
     );
     assert!(lines.iter().all(|line| !line.is_empty()) && text.ends_with("\r\n"));
+    // The times rest on the same as those of the JSON.
+    let assumed = document["assumed"].as_array().expect("a list");
+    let assumed: Vec<&str> = assumed.iter().filter_map(Value::as_str).collect();
+    assert!(!assumed.is_empty() && lines[0].ends_with(",assumed"), "{text}");
+    assert!(lines[1..].iter().all(|line| line.contains(&assumed.join("; "))), "{text}");
     assert_eq!(get(&server, &program, "outputs/operations?form=xml").status, 400);
 }
 

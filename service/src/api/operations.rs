@@ -33,7 +33,7 @@ const RANGES: [&str; 2] = ["feed", "speed"];
 /// Makes the output from the summary of a program.
 pub(super) fn of(summary: &Value, found: &Found, is_csv: bool) -> Result<Vec<u8>, Problem> {
     let timing = &summary["programs"][0];
-    let about = json!({
+    let mut about = json!({
         "program": found.of.details.name,
         "id": found.of.program,
         "revision": found.of.number,
@@ -45,6 +45,8 @@ pub(super) fn of(summary: &Value, found: &Found, is_csv: bool) -> Result<Vec<u8>
     let rows = timing["operations"].as_array().into_iter().flatten();
     let rows: Vec<Value> = rows.enumerate().map(|(at, operation)| row(at + 1, operation)).collect();
     if is_csv {
+        let assumed = timing["assumed"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        about["assumed"] = assumed.collect::<Vec<_>>().join("; ").into();
         return table(&about, &rows).map_err(|_| Problem::fault());
     }
     let mut document = about;
@@ -76,12 +78,14 @@ fn table(about: &Value, rows: &[Value]) -> Result<Vec<u8>, csv::Error> {
     let ranges = RANGES.iter().flat_map(|range| ["min", "max"].map(|end| format!("{range}_{end}")));
     let columns = COLUMNS.iter().map(|(column, _)| (*column).to_owned());
     let rest: Vec<String> = std::iter::once("position".to_owned()).chain(columns).chain(ranges).collect();
+    // A table has no other place for what its times rest on.
+    let last = ["assumed"];
     let mut out = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(Vec::new());
-    out.write_record(first.iter().copied().chain(rest.iter().map(String::as_str)))?;
+    out.write_record(first.iter().copied().chain(rest.iter().map(String::as_str)).chain(last))?;
     for row in rows {
         let cells =
             first.iter().map(|name| cell(&about[name])).chain(rest.iter().map(|name| cell(&row[name])));
-        out.write_record(cells)?;
+        out.write_record(cells.chain(last.map(|name| cell(&about[name]))))?;
     }
     out.into_inner().map_err(|error| csv::Error::from(error.into_error()))
 }
