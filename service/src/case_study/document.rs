@@ -165,6 +165,19 @@ pub(crate) struct Made {
     pub(crate) account: Account,
 }
 
+/// The parts of a payload that an account of it has; the others are passed over.
+#[derive(Deserialize)]
+struct Glance {
+    dialect: String,
+    blocks: Vec<Stamp>,
+}
+
+/// The time stamp of a block, s.
+#[derive(Deserialize)]
+struct Stamp {
+    timestamp: f64,
+}
+
 /// Processes a program. Each payload has `most` bytes at most.
 ///
 /// # Errors
@@ -180,9 +193,9 @@ pub(crate) fn process(name: &str, program: &[u8], setting: &Setting, most: u64) 
     let [findings, assumed] = ["findings", "assumed"].map(|name| compiler::json(&engine, name));
     time["stage"] = "before".into();
     let before = timed(&mut engine, &time)?;
-    let document = read(&after, name)?;
+    let Glance { dialect, blocks } = serde_json::from_slice(&after).map_err(|_| Problem::fault())?;
     let mut parts = Parts::from([(AFTER.to_owned(), after), (BEFORE.to_owned(), before)]);
-    let refused = match canonical(&mut engine, name, setting, machine.as_deref(), &document.dialect) {
+    let refused = match canonical(&mut engine, name, setting, machine.as_deref(), &dialect) {
         Ok(list) => {
             parts.insert(CMF.to_owned(), list);
             None
@@ -195,15 +208,15 @@ pub(crate) fn process(name: &str, program: &[u8], setting: &Setting, most: u64) 
     let account = Account {
         prog_name: name.to_owned(),
         machine_name: setting.machine.clone().unwrap_or_default(),
-        dialect: document.dialect.clone(),
-        blocks: document.blocks.len(),
-        seconds: document.blocks.last().map_or(0.0, |block| block.timestamp),
+        dialect: dialect.clone(),
+        blocks: blocks.len(),
+        seconds: blocks.last().map_or(0.0, |block| block.timestamp),
         diagnostics: findings,
         assumed,
         cmf: refused.is_none(),
         cmf_refused: refused,
     };
-    Ok(Made { parts, of: [setting.machine.clone().unwrap_or_default(), document.dialect], account })
+    Ok(Made { parts, of: [setting.machine.clone().unwrap_or_default(), dialect], account })
 }
 
 /// States in a request what a program is processed with.

@@ -24,6 +24,8 @@ pub struct Writer<'m, W: Write> {
     any: bool,
     /// Feed active.
     feed: f64,
+    /// The text of a block: its many small pieces go out as one.
+    text: Vec<u8>,
     out: W,
 }
 
@@ -46,7 +48,7 @@ impl<'m, W: Write> Writer<'m, W> {
             }
             out.write_all(b"  \"blocks\": [")?;
         }
-        Ok(Writer { machine, columns: Columns::default(), look, any: false, feed: 0.0, out })
+        Ok(Writer { machine, columns: Columns::default(), look, any: false, feed: 0.0, text: Vec::new(), out })
     }
 
     /// Writes what stands after the blocks.
@@ -58,20 +60,21 @@ impl<'m, W: Write> Writer<'m, W> {
     }
 
     fn block(&mut self, block: &Block) -> io::Result<()> {
+        self.text.clear();
         if self.look.shape == Shape::Document {
-            self.out.write_all(if self.any { b",\n    " } else { b"\n    " })?;
+            self.text.extend_from_slice(if self.any { b",\n    " } else { b"\n    " });
         }
         self.any = true;
         match self.look.fields {
-            Fields::Full => serde_json::to_writer(&mut self.out, block)?,
+            Fields::Full => serde_json::to_writer(&mut self.text, block)?,
             Fields::Printed(dialect) => {
-                serde_json::to_writer(&mut self.out, &Printed::of(block, self.look.stage, dialect))?;
+                serde_json::to_writer(&mut self.text, &Printed::of(block, self.look.stage, dialect))?;
             }
         }
         if self.look.shape == Shape::Lines {
-            self.out.write_all(b"\n")?;
+            self.text.push(b'\n');
         }
-        Ok(())
+        self.out.write_all(&self.text)
     }
 }
 
