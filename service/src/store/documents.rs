@@ -73,13 +73,15 @@ impl Store {
         parts: &Parts,
     ) -> Result<String, StoreError> {
         self.may(Act::Change, "")?;
+        let tag = tag_for([machine, dialect], parts);
         self.database.write(|to| match tag_of(to, name)? {
             Some(_) => Err(StoreError::Exists),
             None => {
                 self.note(to, "document.create", name, "")?;
-                insert(to, name, [machine, dialect], parts)
+                insert(to, name, [machine, dialect], parts, &tag)
             }
-        })
+        })?;
+        Ok(tag)
     }
 
     /// Keeps a document in the place of the one under a name; gives its tag.
@@ -91,12 +93,14 @@ impl Store {
         over: &Condition,
     ) -> Result<String, StoreError> {
         self.may(Act::Change, "")?;
+        let tag = tag_for([machine, dialect], parts);
         self.database.write(|to| {
             over.holds(&tag_of(to, name)?.ok_or(StoreError::Absent)?)?;
             remove(to, name)?;
             self.note(to, "document.replace", name, "")?;
-            insert(to, name, [machine, dialect], parts)
-        })
+            insert(to, name, [machine, dialect], parts, &tag)
+        })?;
+        Ok(tag)
     }
 
     /// Lets go of a document.
@@ -173,19 +177,24 @@ fn about(from: &dyn Session, name: &str) -> Result<Document, StoreError> {
     Ok(Document { id: row.int(0)?, machine: row.text(1)?, dialect: row.text(2)?, tag: row.text(3)? })
 }
 
+/// The tag of a document. It is made before a change begins: others wait for its end.
+fn tag_for(of: [&str; 2], parts: &Parts) -> String {
+    let of = of.map(str::as_bytes);
+    let named = parts.iter().flat_map(|(part, bytes)| [part.as_bytes(), bytes.as_slice()]);
+    digest(&of.into_iter().chain(named).collect::<Vec<_>>())
+}
+
 fn insert(
     to: &dyn Session,
     name: &str,
     [machine, dialect]: [&str; 2],
     parts: &Parts,
-) -> Result<String, StoreError> {
-    let said = [machine, dialect].map(str::as_bytes);
-    let named = parts.iter().flat_map(|(part, bytes)| [part.as_bytes(), bytes.as_slice()]);
-    let tag = digest(&said.into_iter().chain(named).collect::<Vec<_>>());
+    tag: &str,
+) -> Result<(), StoreError> {
     let id = to
         .row(
             "INSERT INTO document (name, machine, dialect, tag, changed) VALUES ($1, $2, $3, $4, $5) RETURNING id",
-            values![name, machine, dialect, &tag, now()],
+            values![name, machine, dialect, tag, now()],
         )?
         .int(0)?;
     for (part, bytes) in parts {
@@ -198,7 +207,7 @@ fn insert(
             )?;
         }
     }
-    Ok(tag)
+    Ok(())
 }
 
 fn remove(from: &dyn Session, name: &str) -> Result<(), StoreError> {
