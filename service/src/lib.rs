@@ -6,6 +6,7 @@
 //! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations |
 //! | `/api/v1/machines` | profiles of machines |
 //! | `/api/v1/jobs`, `/api/v1/search` | many programs translated, and found by what they do |
+//! | `/api/v1/hooks` | addresses that are told of releases, stale translations and ended jobs |
 //! | `/api/v1/session`, `/accounts`, `/tokens`, `/audit` | users, and what they did |
 //! | `/`, `/api/v1/engine` | the studio's page and its engines |
 //! | `/api/v1/openapi.json`, `/api/v1/docs`, `/metrics` | the description of all addresses, and counters |
@@ -24,9 +25,11 @@ mod chance;
 mod comparing;
 mod compiler;
 mod facts;
+mod hooks;
 mod http;
 mod import;
 mod machines;
+mod moments;
 mod observe;
 mod rights;
 mod settings;
@@ -39,7 +42,7 @@ mod workers;
 use std::io;
 use std::net::TcpListener;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use axum::extract::DefaultBodyLimit;
@@ -51,13 +54,14 @@ use self::access::Caller;
 use self::access::guard::{self, Guard};
 pub use self::access::{Users, UsersError};
 use self::case_study::{Remote, Shelf};
+use self::hooks::{Targets, sending};
 use self::http::arrival::{self, Arrivals};
 use self::http::{Problem, compression, connections, gate, openapi, tls};
 pub use self::import::{Entry, Import, Imported, NotImported};
 use self::observe::Counters;
 pub use self::observe::{Form as LogForm, Level as LogLevel, log};
 pub use self::rights::{Role, Scope};
-pub use self::settings::{Cost, Listen, Rate};
+pub use self::settings::{Cost, Hooks, Listen, Rate};
 pub use self::store::Place;
 use self::store::{Store, StoreError};
 use self::studio::Rooms;
@@ -103,6 +107,10 @@ pub struct Limits {
     pub moves: usize,
     /// Longest time for which one is kept without use.
     pub room_age: Duration,
+    /// Time limit of a message to a hook, with its answer.
+    pub hook: Duration,
+    /// Pauses after each failed attempt to tell a hook, in whole seconds; after one more it is given up.
+    pub hook_pauses: [Duration; 7],
 }
 
 impl Default for Limits {
@@ -127,6 +135,9 @@ impl Default for Limits {
             // With their modes, some 300 MB.
             moves: 2_000_000,
             room_age: Duration::from_secs(1800),
+            hook: Duration::from_secs(10),
+            // A receiver that is mended within a day and a half misses nothing.
+            hook_pauses: [10, 60, 300, 1800, 2 * 3600, 6 * 3600, 24 * 3600].map(Duration::from_secs),
         }
     }
 }
@@ -172,6 +183,8 @@ pub enum OpenError {
     Address(io::Error),
     /// The database cannot be used; its reason.
     Database(String),
+    /// A target of hooks, or the file with their authorities, cannot be used; the reason.
+    Hooks(String),
 }
 
 /// State that all requests share.
@@ -182,6 +195,10 @@ struct Shared {
     pool: Pool,
     counters: Arc<Counters>,
     bell: Bell,
+    /// Wakes the one who tells hooks of events.
+    hook_bell: Bell,
+    /// Addresses that hooks may have; none where this process sends nothing.
+    targets: OnceLock<Targets>,
     rooms: Rooms,
     /// Bytes of a program and of a document at most.
     largest: u64,
@@ -334,6 +351,7 @@ impl Service {
                     .merge(case_study::output())
                     .merge(machines::routes())
                     .merge(api::routes())
+                    .merge(hooks::routes())
                     .merge(access::routes())
                     .merge(studio::routes()),
                 None,
@@ -363,12 +381,27 @@ impl Service {
             rooms: Rooms::new(&limits),
             counters: Arc::new(Counters::new()),
             bell: Bell::new(),
+            hook_bell: Bell::new(),
+            targets: OnceLock::new(),
             largest: limits.largest,
             author: author.to_owned(),
             guard,
         });
         let workers = if matches!(part, Part::All { .. }) { threads } else { 0 };
         Ok(Service { listener, listen, tls, routes, shared, threads, workers, limits })
+    }
+
+    /// The same service, which tells hooks of events. Without targets it tells nobody.
+    ///
+    /// # Errors
+    /// A target or the file of authorities is not of the form.
+    pub fn with_hooks(self, hooks: &Hooks) -> Result<Service, OpenError> {
+        if !hooks.targets.is_empty() {
+            let targets = Targets::of(hooks, &self.limits).map_err(OpenError::Hooks)?;
+            // The first ones stay.
+            let _ = self.shared.targets.set(targets);
+        }
+        Ok(self)
     }
 
     /// Address of the server.
@@ -404,14 +437,19 @@ impl Service {
             self.listener.set_nonblocking(true)?;
             let listener = tokio::net::TcpListener::from_std(self.listener)?;
             let (stop, asked) = watch::channel(false);
-            let workers: Vec<_> =
-                (0..self.workers)
-                    .map(|_| tokio::spawn(workers::work(Arc::clone(&self.shared), asked.clone())))
-                    // Half of the threads at most compute facts, so that requests find a thread.
-                    .chain((0..self.workers.div_ceil(2)).map(|_| {
+            let workers: Vec<_> = (0..self.workers)
+                .map(|_| tokio::spawn(workers::work(Arc::clone(&self.shared), asked.clone())))
+                // Half of the threads at most compute facts, so that requests find a thread.
+                .chain(
+                    (0..self.workers.div_ceil(2)).map(|_| {
                         tokio::spawn(workers::compute_facts(Arc::clone(&self.shared), asked.clone()))
-                    }))
-                    .collect();
+                    }),
+                )
+                .chain((0..self.workers.min(1)).flat_map(|_| {
+                    let [one, other] = [(); 2].map(|()| (Arc::clone(&self.shared), asked.clone()));
+                    [tokio::spawn(sending::run(one.0, one.1)), tokio::spawn(sending::tidy(other.0, other.1))]
+                }))
+                .collect();
             let stopped = async {
                 while !ncc_exec::halt::is_asked() {
                     tokio::time::sleep(Duration::from_millis(50)).await;

@@ -1,4 +1,4 @@
-//! Settings of a server: its address, the names by which it may be asked for, its rates.
+//! Settings of a server: its address, the names by which it may be asked for, its rates, and whom it may tell of events.
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -29,6 +29,15 @@ pub struct Rate {
     pub burst: u32,
     /// The interval.
     pub every: Duration,
+}
+
+/// Web hooks: addresses outside that a server may tell of events. Without targets it sends nothing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Hooks {
+    /// Addresses, https or http, below which hooks may be: `https://erp.example/hooks`.
+    pub targets: Vec<String>,
+    /// A file with certificates of authorities for https, beside those of the web, PEM.
+    pub authorities: Option<PathBuf>,
 }
 
 /// The address of a server, and who may ask it.

@@ -38,38 +38,45 @@ impl Bell {
     pub(crate) fn new() -> Bell {
         Bell(watch::Sender::new(()))
     }
+
+    /// Wakes them.
+    pub(crate) fn ring(&self) {
+        self.0.send_replace(());
+    }
 }
 
-/// Wakes the workers after each request that may have made a task.
+/// Wakes the workers after each request that may have made a task, or an event for a hook.
 pub(crate) async fn ring(State(shared): State<Arc<Shared>>, request: Request, next: Handler) -> Response {
     // Documents of the case study make none.
     let reads = matches!(*request.method(), Method::GET | Method::HEAD);
     let makes_none = reads || !request.uri().path().starts_with("/api/v1/");
     let answer = next.run(request).await;
     if !makes_none {
-        shared.bell.0.send_replace(());
+        shared.bell.ring();
+        shared.hook_bell.ring();
     }
     answer
 }
 
 /// The pauses of an idle worker: longer and longer, until there is something to do.
-struct Pauses {
+pub(crate) struct Pauses {
     bell: watch::Receiver<()>,
     next: Duration,
 }
 
 impl Pauses {
-    fn of(shared: &Shared) -> Pauses {
-        Pauses { bell: shared.bell.0.subscribe(), next: GLANCE }
+    /// Of a worker that a bell wakes.
+    pub(crate) fn of(bell: &Bell) -> Pauses {
+        Pauses { bell: bell.0.subscribe(), next: GLANCE }
     }
 
     /// There is something to do.
-    fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.next = GLANCE;
     }
 
     /// Waits until the pause is over, the bell rings, or the worker is asked to stop.
-    async fn wait(&mut self, stop: &mut watch::Receiver<bool>) {
+    pub(crate) async fn wait(&mut self, stop: &mut watch::Receiver<bool>) {
         let pause = self.next;
         self.next = (pause * 2).min(REST);
         tokio::select! {
@@ -93,7 +100,7 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
         crate::observe::fault("a worker has no name: the system gives no random bytes");
         return;
     };
-    let mut pauses = Pauses::of(&shared);
+    let mut pauses = Pauses::of(&shared.bell);
     while !*stop.borrow() {
         let worker = name.clone();
         let claimed = shared.store(&ncc, move |store| Ok(store.claim(&worker, CLAIM)?)).await;
@@ -126,8 +133,12 @@ pub(crate) async fn work(shared: Arc<Shared>, mut stop: watch::Receiver<bool>) {
                 Ok(())
             })
             .await;
-        if let Err(problem) = ended {
-            crate::observe::fault(&format!("a task was not ended: {}", problem.detail()));
+        match ended {
+            // It may have been the last one of its job.
+            Ok(()) => shared.hook_bell.ring(),
+            Err(problem) => {
+                crate::observe::fault(&format!("a task was not ended: {}", problem.detail()));
+            }
         }
     }
 }
@@ -141,7 +152,7 @@ pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver
     // Facts are those of all programs; who reads them is asked when they are searched.
     let caller = Caller::of(Who::service());
     let limit = shared.pool.limit();
-    let mut pauses = Pauses::of(&shared);
+    let mut pauses = Pauses::of(&shared.bell);
     while !*stop.borrow() {
         let worker = name.clone();
         // A thread of the compiler is taken only where there is something to do, and the claim begins with it.
@@ -157,7 +168,11 @@ pub(crate) async fn compute_facts(shared: Arc<Shared>, mut stop: watch::Receiver
             Err(problem) => Err(problem),
         };
         match done {
-            Ok(Next::Done) => pauses.reset(),
+            Ok(Next::Done) => {
+                pauses.reset();
+                // A translation may have become stale.
+                shared.hook_bell.ring();
+            }
             Ok(Next::Nothing) => pauses.wait(&mut stop).await,
             Ok(Next::Stopped) => return,
             Err(problem) => {

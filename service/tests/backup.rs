@@ -3,16 +3,20 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use ncc_service::{Entry, Import, Imported, Limits, NotImported, Part, Place, backup, restore};
+use ncc_service::{Entry, Hooks, Import, Imported, Limits, NotImported, Part, Place, backup, restore};
 use rusqlite::Connection;
 use serde_json::{Value, json};
 
-use crate::client::{PROGRAM, Server, place};
+use crate::client::{PROGRAM, Server, here, place};
 use crate::programs::new;
 use crate::search::settled;
 
+/// A target of hooks where nobody listens.
+const TARGET: &str = "http://127.0.0.1:9/";
+
 fn serve(place: &Place) -> Server {
-    Server::of(&Part::All { database: place.clone() }, Limits::default())
+    let hooks = Hooks { targets: vec![TARGET.to_owned()], authorities: None };
+    Server::with_hooks(here(), &Part::All { database: place.clone() }, Limits::default(), &hooks)
 }
 
 fn put(into: &Import, folder: &str, name: &str, text: &str) -> Result<Imported, NotImported> {
@@ -76,6 +80,8 @@ fn filled(folder: &Path) -> (Server, Place) {
         let path = format!("/api/v1/translations/{made}/states");
         assert_eq!(server.json("POST", &path, json!({ "state": state }).to_string().as_bytes()).status, 200);
     }
+    let hook = json!({ "target": TARGET, "events": ["job"] }).to_string();
+    assert_eq!(server.json("POST", "/api/v1/hooks", hook.as_bytes()).status, 201);
     let job = json!({ "under": "f", "to": "haas" }).to_string();
     let job =
         server.json("POST", "/api/v1/jobs", job.as_bytes()).json()["id"].as_str().expect("a job").to_owned();
@@ -87,9 +93,10 @@ fn filled(folder: &Path) -> (Server, Place) {
 
 /// All that a server tells of its database.
 fn told(server: &Server) -> Vec<Value> {
-    let mut all: Vec<Value> = ["programs?deleted=true", "search", "translations", "jobs", "machines"]
-        .map(|what| server.get(&format!("/api/v1/{what}")).json())
-        .into();
+    let mut all: Vec<Value> =
+        ["programs?deleted=true", "search", "translations", "jobs", "machines", "hooks"]
+            .map(|what| server.get(&format!("/api/v1/{what}")).json())
+            .into();
     for program in all[1]["programs"].as_array().expect("a list").clone() {
         let path = format!("/api/v1/programs/{}", program["id"].as_str().expect("a name"));
         all.push(server.get(&format!("{path}/revisions")).json());
@@ -173,9 +180,19 @@ fn each_table_is_in_a_backup() {
             }
         }
     }
-    for name in
-        ["content_piece", "document_piece", "fact", "job", "machine", "program_tag", "state", "task", "term"]
-    {
+    for name in [
+        "content_piece",
+        "delivery",
+        "document_piece",
+        "fact",
+        "hook",
+        "job",
+        "machine",
+        "program_tag",
+        "state",
+        "task",
+        "term",
+    ] {
         assert!(copied[name] > 0, "{name} is empty, so that this test says nothing of it");
     }
 }

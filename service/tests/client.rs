@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-use ncc_service::{Limits, Listen, Part, Place, Service};
+use ncc_service::{Hooks, Limits, Listen, Part, Place, Service};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -70,6 +70,11 @@ pub(crate) fn place(file: &Path) -> Place {
     Place::Server(format!("{address}/{name}"))
 }
 
+/// An address of this computer with any port that is free.
+pub(crate) fn here() -> SocketAddr {
+    SocketAddr::from(([127, 0, 0, 1], 0))
+}
+
 impl Server {
     pub(crate) fn all() -> Server {
         Server::limited(Limits::default())
@@ -83,12 +88,31 @@ impl Server {
 
     /// One that has a part alone.
     pub(crate) fn of(part: &Part, limits: Limits) -> Server {
-        Server::at(SocketAddr::from(([127, 0, 0, 1], 0)), part, limits)
+        Server::at(here(), part, limits)
     }
 
     /// One that listens in another way.
     pub(crate) fn at(listen: impl Into<Listen>, part: &Part, limits: Limits) -> Server {
+        Server::with_hooks(listen, part, limits, &Hooks::default())
+    }
+
+    /// One that may tell these targets of events.
+    pub(crate) fn telling(targets: &[String], limits: Limits) -> Server {
+        let folder = tempfile::tempdir().expect("a folder");
+        let part = Part::All { database: place(&folder.path().join("ncc.sqlite")) };
+        let hooks = Hooks { targets: targets.to_vec(), authorities: None };
+        Server { _folder: Some(folder), ..Server::with_hooks(here(), &part, limits, &hooks) }
+    }
+
+    /// One with hooks that listens in another way.
+    pub(crate) fn with_hooks(
+        listen: impl Into<Listen>,
+        part: &Part,
+        limits: Limits,
+        hooks: &Hooks,
+    ) -> Server {
         let service = Service::with_limits(listen, part, "ana", limits);
+        let service = service.and_then(|service| service.with_hooks(hooks));
         let service = service.unwrap_or_else(|error| panic!("no server: {error:?}"));
         let address = service.address();
         let address = address.split_once("://").and_then(|(_, address)| address.parse().ok());

@@ -17,6 +17,9 @@ import tempfile
 import time
 import urllib.request
 
+# The target of hooks: nobody listens there.
+TARGET = "http://127.0.0.1:9/"
+
 PROGRAM = b"T1M6\nS1000M3\nG0X1.Y2.Z3.\nG1X10.F100\nM5\n"
 
 # A description cannot state that a text is a program (422), that a tag is the one that was read (412), that a name has at
@@ -36,6 +39,10 @@ parameters = { "path.id" = "TRANSLATION" }
 [[operations]]
 include-path-regex = "^/api/v1/jobs/"
 parameters = { "path.id" = "JOB" }
+
+[[operations]]
+include-path-regex = "^/api/v1/hooks/"
+parameters = { "path.id" = "HOOK" }
 
 [[operations]]
 include-path-regex = "^/(transpiler|persistence|output)/"
@@ -63,7 +70,13 @@ def things(address):
     asked = {"programs": [program], "to": "haas"}
     job = post(f"{address}/api/v1/jobs", json.dumps(asked).encode(), "application/json")["id"]
     post(f"{address}/transpiler/a.cn?dialect=mach9", PROGRAM, "text/plain")
-    return CONFIG.replace("PROGRAM", program).replace("TRANSLATION", translation).replace("JOB", job)
+    asked = {"target": TARGET, "events": ["job"]}
+    hook = post(f"{address}/api/v1/hooks", json.dumps(asked).encode(), "application/json")["id"]
+    names = {"PROGRAM": program, "TRANSLATION": translation, "JOB": job, "HOOK": hook}
+    config = CONFIG
+    for word, name in names.items():
+        config = config.replace(word, name)
+    return config
 
 
 def main():
@@ -71,7 +84,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         server = subprocess.Popen(
-            [ncc, "serve", "--listen", "127.0.0.1:0", "--database", str(folder / "ncc.sqlite")],
+            [ncc, "serve", "--listen", "127.0.0.1:0", "--database", str(folder / "ncc.sqlite"), "--hook-target", TARGET],
             stdout=subprocess.PIPE, text=True)
         try:
             address = server.stdout.readline().strip()

@@ -10,7 +10,8 @@ names each; others make programs and revisions of them; then the process is sent
 must be the last one that was acknowledged, or the one that was being written when the process ended; its parts must all be of
 one document, and its tag theirs. Each program must have all revisions that were acknowledged, in order, and at most the one
 more that was being written; each text must have the digest of its revision. Every tenth round begins a job, and at the end
-each job must have ended, each of its programs once.
+each job must have ended, each of its programs once. Each round begins a job without programs too: a hook must have been told
+of the end of each job, by one name each, and of nothing else.
 
 With `--full-disk` a folder on a small file system is filled instead: writes must end with 507, and none that was
 acknowledged may be lost, also after a SIGKILL and a start on the full disk.
@@ -20,6 +21,7 @@ The exit code is 0 if nothing was lost.
 
 import hashlib
 import http.client
+import http.server
 import json
 import os
 import random
@@ -36,8 +38,9 @@ WHOLE = "application/vnd.ncc.document+json"
 
 
 class Server:
-    def __init__(self, binary, database):
+    def __init__(self, binary, database, target=None):
         place = ["--database", database] if database else []
+        place += ["--hook-target", target] if target else []
         self.process = subprocess.Popen(
             [binary, "serve", "--listen", "127.0.0.1:0", *place],
             stdout=subprocess.PIPE,
@@ -57,6 +60,32 @@ class Server:
         self.process.wait()
         self.process.stdout.close()
         self.process.stderr.close()
+
+
+class Receiver(http.server.ThreadingHTTPServer):
+    """A receiver of hooks; `told` has the names of the messages about each job."""
+
+    def __init__(self):
+        super().__init__(("127.0.0.1", 0), Message)
+        self.told = {}
+        self.target = f"http://127.0.0.1:{self.server_port}/"
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    def handle_error(self, request, client_address):
+        """A sender that is killed breaks off."""
+
+
+class Message(http.server.BaseHTTPRequestHandler):
+    def do_POST(self):
+        body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+        self.server.told.setdefault(body["data"]["job"], set()).add(self.headers["webhook-id"])
+        # So that the process is killed while some are being sent.
+        time.sleep(random.uniform(0.0, 0.05))
+        self.send_response(204)
+        self.end_headers()
+
+    def log_message(self, *_):
+        """Nothing is written."""
 
 
 def payload(name, mark, blocks):
@@ -308,6 +337,38 @@ def compare(server, states):
     return wrong
 
 
+def ask(server, path, asked):
+    """The name of the thing that a request makes; none if it is not acknowledged."""
+    connection = server.connect()
+    connection.request("POST", path, body=json.dumps(asked), headers={"Content-Type": "application/json"})
+    answer = connection.getresponse()
+    made = json.loads(answer.read())
+    connection.close()
+    return made["id"] if answer.status in (201, 202) else None
+
+
+def compare_hooks(server, hook, receiver, jobs):
+    """Faults of the messages to a hook, after all of them have had time to be sent."""
+    connection = server.connect()
+    until = time.monotonic() + 180
+    while True:
+        page = json.loads(read(connection, f"/api/v1/hooks/{hook}/deliveries?limit=1000")[1])["deliveries"]
+        waiting = [row for row in page if row["ended"] is None]
+        if not waiting:
+            break
+        if time.monotonic() > until:
+            return [f"the hook waits for {waiting}"]
+        time.sleep(0.2)
+    wrong = [f"the hook was not told of the job {job}" for job in jobs if job not in receiver.told]
+    for job, names in receiver.told.items():
+        if len(names) != 1:
+            wrong.append(f"the hook was told of the job {job} by {names}")
+        if read(connection, f"/api/v1/jobs/{job}")[0] != 200:
+            wrong.append(f"the hook was told of the job {job}, which is not there")
+    connection.close()
+    return wrong
+
+
 def write_for(server, states, seconds, seed, largest):
     writers = [Writer(server, k, states, seed + k, largest) for k in range(WRITERS)]
     for writer in writers:
@@ -321,14 +382,17 @@ def killed(binary, rounds):
     database = None if os.environ.get("NCC_DATABASE_URL") else os.path.join(folder.name, "ncc.sqlite")
     states, programs, jobs, acknowledged, revisions, open_writes, wrong = {}, {}, [], 0, 0, 0, []
     chance = random.Random(20230711)
+    receiver, hook, ended = Receiver(), None, []
     for k in range(rounds):
-        server = Server(binary, database)
+        server = Server(binary, database, receiver.target)
+        hook = hook or ask(server, "/api/v1/hooks", {"target": receiver.target, "events": ["job"]})
         wrong += [f"round {k}: {words}" for words in compare(server, states) + compare_programs(server, programs)]
         if k % 10 == 9:
             jobs += [job for job in [begin_job(server, programs)] if job]
         revisers = [Reviser(server, n, programs, 1000 + k * 2 + n) for n in range(2)]
         for reviser in revisers:
             reviser.start()
+        ended += [job for job in [ask(server, "/api/v1/jobs", {"under": "nothing", "to": "haas"})] if job]
         # Some documents are larger than a piece of the database (1 MiB).
         writers = write_for(server, states, chance.uniform(0.0, 0.4), k * WRITERS, 4000 if k % 10 == 0 else 200)
         server.kill()
@@ -343,12 +407,13 @@ def killed(binary, rounds):
         open_writes += sum(len(may) > 1 for may in states.values())
         if wrong:
             break
-    server = Server(binary, database)
+    server = Server(binary, database, receiver.target)
     wrong += compare(server, states) + compare_programs(server, programs) + compare_jobs(server, jobs)
+    wrong += compare_hooks(server, hook, receiver, ended + [job for job, _ in jobs])
     server.kill()
     print(
         f"{k + 1} rounds, {acknowledged} documents and {revisions} revisions acknowledged, {open_writes} documents broken "
-        f"off, {len(jobs)} jobs, {len(wrong)} faults"
+        f"off, {len(jobs)} jobs, {len(receiver.told)} ends of jobs told, {len(wrong)} faults"
     )
     return wrong
 

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_driver::problem::{Exit, Problem};
-use ncc_service::{Listen, LogForm, LogLevel, OpenError, Part, Service};
+use ncc_service::{Hooks, Listen, LogForm, LogLevel, OpenError, Part, Service};
 
 pub use self::database::Database;
 use self::database::{author, unusable};
@@ -33,6 +33,8 @@ Examples:
   ncc serve backup monday.sqlite                a copy of the database
   ncc serve user add ana --role admin           the first account
   ncc serve --listen 0.0.0.0:8274 --host ncc.shop.example --tls-cert cert.pem --tls-key key.pem
+  ncc serve --hook-target https://erp.shop.example/ncc --hook-ca shop.pem
+                                                hooks may tell these addresses of releases
 
 It answers this computer alone (127.0.0.1), without a login, until there is an account. To answer
 other computers it needs an account, TLS, and the names by which they ask. Ctrl-C ends it: requests
@@ -69,6 +71,12 @@ pub struct Serve {
     /// The address of PERSISTENCE, for `--only transpiler` and `--only output`
     #[arg(long, value_name = "URL")]
     pub persistence: Option<String>,
+    /// An address, https or http, that hooks may tell of events, and all below it; may be given several times
+    #[arg(long = "hook-target", value_name = "URL", conflicts_with = "only")]
+    pub hook_targets: Vec<String>,
+    /// Certificates of authorities for the targets of hooks, beside those of the web, PEM
+    #[arg(long, value_name = "FILE", requires = "hook_targets")]
+    pub hook_ca: Option<PathBuf>,
     /// Lines of the log, on stderr
     #[arg(long, value_name = "LINES", default_value = "faults")]
     pub log: Log,
@@ -185,9 +193,9 @@ fn log(args: &Serve) {
     ncc_service::log(level, form);
 }
 
-fn serve(args: &Serve) -> Result<(), Problem> {
-    log(args);
-    let service = Service::open(listen(args), &part(args)?, &author(args.author.as_deref())).map_err(|error| match error {
+/// A service that cannot be opened, in words.
+fn refused(args: &Serve, error: OpenError) -> Problem {
+    match error {
         OpenError::NoAccount => Problem::usage(
             "other computers could ask, and there is no account",
             "make one: ncc serve user add NAME --role admin; or answer this computer alone: --listen 127.0.0.1:8274",
@@ -205,7 +213,19 @@ fn serve(args: &Serve) -> Result<(), Problem> {
             "name another port, such as --listen 127.0.0.1:8275, or 0 for any that is free",
         ),
         OpenError::Database(reason) => unusable(&reason),
-    })?;
+        OpenError::Hooks(reason) => Problem::usage(
+            format!("cannot tell hooks of events: {reason}"),
+            "--hook-target https://erp.shop.example/ncc, --hook-ca FILE with PEM certificates",
+        ),
+    }
+}
+
+fn serve(args: &Serve) -> Result<(), Problem> {
+    log(args);
+    let hooks = Hooks { targets: args.hook_targets.clone(), authorities: args.hook_ca.clone() };
+    let service = Service::open(listen(args), &part(args)?, &author(args.author.as_deref()))
+        .and_then(|service| service.with_hooks(&hooks))
+        .map_err(|error| refused(args, error))?;
     files::to_stdout(&mut |out| writeln!(out, "{}", service.address()))?;
     service.serve().map_err(|error| Problem::file("serve", &args.listen.to_string(), &error))
 }

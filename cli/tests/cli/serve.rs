@@ -52,6 +52,24 @@ fn accounts_are_made_with_a_password_from_a_pipe() {
     assert!(code == 2 && told.contains("ncc serve user add"), "{told}");
 }
 
+#[test]
+fn hooks_have_targets_of_a_form() {
+    let folder = folder();
+    let folder = folder.path();
+    let serve =
+        |args: &[&str]| with_password(folder, &[&["serve", "--listen", "127.0.0.1:0"], args].concat(), "");
+    for (args, why) in [
+        (&["--hook-target", "erp.example"][..], "it begins with https://"),
+        (&["--hook-target", "https://ana:secret@erp.example/"], "neither user nor password"),
+        (&["--hook-target", "https://erp.example/", "--hook-ca", "no/such.pem"], "no/such.pem"),
+        (&["--hook-ca", "own.pem"], "--hook-target"),
+        (&["--only", "persistence", "--hook-target", "https://erp.example/"], "cannot be used with"),
+    ] {
+        let (code, told) = serve(args);
+        assert!(code == 2 && told.contains(why), "{args:?}: {code} {told}");
+    }
+}
+
 const PROGRAM: &str = "%\nO1\nG21 G17 G90 G94 G54\nG00 X1.\nM30\n%\n";
 
 /// A folder with programs, and with files that are none.

@@ -105,7 +105,7 @@ pub(super) fn number(text: &str) -> Result<i64, Problem> {
 }
 
 /// A folder: names with `/` between them.
-pub(super) fn folder(folder: &str) -> Result<(), Problem> {
+pub(crate) fn folder(folder: &str) -> Result<(), Problem> {
     if folder.is_empty() {
         return Ok(());
     }

@@ -143,7 +143,7 @@ fn compute(store: &Store, claimed: &Claimed, limit: Duration) -> Result<Option<C
     executed.insert("text_is_cut".to_owned(), json!(words.is_cut));
     let document = Value::Object(executed);
     let translations = store.translations(Some(&of.program), None, "", TRANSLATIONS)?;
-    let is_stale = |own: &crate::store::Translation| Ok((own.id.clone(), !stale(store, own)?.is_empty()));
+    let is_stale = |own: &crate::store::Translation| Ok((own.id.clone(), stale(store, own)?));
     let stale = translations.iter().map(is_stale).collect::<Result<_, Problem>>()?;
     Ok(Some(Computed {
         inputs: serde_json::to_string(&inputs).unwrap_or_default(),

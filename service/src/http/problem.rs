@@ -295,6 +295,7 @@ impl From<StoreError> for Problem {
             StoreError::Reused => {
                 Problem::of(REUSED, "Idempotency-Key").help("give each request a key of its own")
             }
+            StoreError::TooMany => Problem::conflict("there are as many as there may be").help("delete one"),
             StoreError::Full => Problem::of(FULL, "nothing was changed"),
             StoreError::Busy => Problem::busy("the database is taken by others"),
             StoreError::Database(words) => {

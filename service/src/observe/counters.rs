@@ -7,6 +7,7 @@
 //! | `ncc_requests_running` | |
 //! | `ncc_work_running`, `ncc_work_waiting` | pieces of work of the compiler |
 //! | `ncc_tasks` | state: programs of jobs |
+//! | `ncc_deliveries_total` | end: attempts of this process to tell a hook: delivered, failed, given-up |
 //! | `ncc_build_info` | version |
 
 use std::sync::Arc;
@@ -50,6 +51,7 @@ pub(crate) struct Counters {
     work_running: Gauge,
     work_waiting: Gauge,
     tasks: Family<Labels, Gauge>,
+    deliveries: Family<Labels, Counter>,
 }
 
 /// Counts down when it is dropped: a request whose client has gone is running no more.
@@ -69,14 +71,16 @@ impl Counters {
         let times = Times::new_with_constructor(|| Histogram::new(TIMES));
         let [running, work_running, work_waiting] = [(); 3].map(|()| Gauge::default());
         let tasks = Family::default();
+        let deliveries = Family::default();
         registry.register("requests", "Requests that were answered", requests.clone());
         registry.register("request_seconds", "Time until the head of the answer", times.clone());
         registry.register("requests_running", "Requests that are being answered", running.clone());
         registry.register("work_running", "Pieces of work of the compiler that run", work_running.clone());
         registry.register("work_waiting", "Pieces of work of the compiler that wait", work_waiting.clone());
         registry.register("tasks", "Programs of jobs", tasks.clone());
+        registry.register("deliveries", "Attempts to tell a hook of an event", deliveries.clone());
         registry.register("build", "This ncc", Info::new(vec![("version", env!("CARGO_PKG_VERSION"))]));
-        Counters { registry, requests, times, running, work_running, work_waiting, tasks }
+        Counters { registry, requests, times, running, work_running, work_waiting, tasks, deliveries }
     }
 
     /// A request begins.
@@ -93,6 +97,11 @@ impl Counters {
         let with_status = of().into_iter().chain([("status", status.to_string())]).collect();
         self.requests.get_or_create(&with_status).inc();
         self.times.get_or_create(&of()).observe(took.as_secs_f64());
+    }
+
+    /// An attempt to tell a hook has ended.
+    pub(crate) fn count_delivery(&self, end: &'static str) {
+        self.deliveries.get_or_create(&vec![("end", end.to_owned())]).inc();
     }
 }
 

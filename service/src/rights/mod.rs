@@ -108,13 +108,16 @@ impl Right {
         Right { folder: String::new(), role: Role::Admin }
     }
 
-    /// Whether it holds in a folder. Names of folders are compared by their bytes.
+    /// Whether it holds in a folder.
     fn holds_in(&self, folder: &str) -> bool {
-        self.folder.is_empty()
-            || folder
-                .strip_prefix(self.folder.as_str())
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        is_in(folder, &self.folder)
     }
+}
+
+/// Whether a folder is another one, or below it; the empty one has all. Names of folders are compared by their bytes.
+pub(crate) fn is_in(folder: &str, other: &str) -> bool {
+    other.is_empty()
+        || folder.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 /// Acts of a token. Each scope includes to read.

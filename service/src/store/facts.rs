@@ -5,6 +5,7 @@
 //! the program wait again. Not here: what a program does (`crate::facts`), and how it is found (`search`).
 
 use super::documents::now;
+use super::hooks::events::became_stale;
 use super::session::{Row, Session, Value, values};
 use super::{Store, StoreError};
 use crate::rights::Act;
@@ -62,8 +63,8 @@ pub(crate) struct Computed {
     pub(crate) extents: Option<[[i64; 2]; 3]>,
     /// Terms, each once.
     pub(crate) terms: Vec<Term>,
-    /// Its translations, and whether each is stale.
-    pub(crate) stale: Vec<(String, bool)>,
+    /// Its translations, and which inputs of each have changed; none of one that is not stale.
+    pub(crate) stale: Vec<(String, Vec<&'static str>)>,
 }
 
 impl Store {
@@ -138,11 +139,15 @@ impl Store {
             }
             to.change("DELETE FROM term WHERE fact = $1", values![claimed.id])?;
             made.terms.chunks(ROWS).try_for_each(|terms| add(to, claimed.id, terms))?;
-            for (translation, is_stale) in &made.stale {
-                to.change(
+            for (translation, changed) in &made.stale {
+                let is_stale = !changed.is_empty();
+                let is_new = to.change(
                     "UPDATE translation SET is_stale = $2 WHERE id = $1 AND is_stale <> $2",
-                    values![translation, *is_stale],
-                )?;
+                    values![translation, is_stale],
+                )? == 1;
+                if is_stale && is_new {
+                    became_stale(to, translation, changed)?;
+                }
             }
             Ok(true)
         })

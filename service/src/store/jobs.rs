@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::documents::now;
+use super::hooks::events::job_ended;
 use super::programs::holds_in;
 use super::session::{Row, Session, values};
 use super::{Store, StoreError};
@@ -116,7 +117,8 @@ impl Store {
                     values![id, number as i64 + 1, made, program, *revision],
                 )?;
             }
-            self.note(to, "job.create", id, &format!("{} programs", programs.len()))
+            self.note(to, "job.create", id, &format!("{} programs", programs.len()))?;
+            if programs.is_empty() { job_ended(to, id) } else { Ok(()) }
         })
     }
 
@@ -309,14 +311,14 @@ fn count(from: &dyn Session, job: &mut Job) -> Result<(), StoreError> {
     Ok(())
 }
 
-/// Marks a job as ended where no task of it is left.
+/// Marks a job as ended where no task of it is left. Only the first one who does so changes a row, so hooks are told once.
 fn end_job(to: &dyn Session, id: &str) -> Result<(), StoreError> {
-    to.change(
+    let ended = to.change(
         "UPDATE job SET ended = $2 WHERE id = $1 AND ended IS NULL
          AND NOT EXISTS (SELECT 1 FROM task WHERE job = $1 AND state IN ('waiting', 'running'))",
         values![id, now()],
     )?;
-    Ok(())
+    if ended == 1 { job_ended(to, id) } else { Ok(()) }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //!
 //! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`;
 //! `documents`, `machines`, `programs` and their `contents` are what is kept, `facts` what programs do, `comparisons` what
-//! revisions changed, `search` finds them,
+//! revisions changed, `search` finds them, `hooks` tell others of them,
 //! and `backup` copies all of it. Every change is one transaction: it is there as a whole, or not at all. Not here: what a
 //! document says, and HTTP.
 
@@ -14,6 +14,7 @@ mod contents;
 mod database;
 mod documents;
 mod facts;
+mod hooks;
 mod jobs;
 mod logins;
 mod machines;
@@ -42,6 +43,7 @@ pub(crate) use self::comparisons::{Comparison, Pair, Verdict};
 pub(crate) use self::contents::{Content, Receiving};
 pub(crate) use self::documents::{Condition, Listed, Parts};
 pub(crate) use self::facts::{CALLS_ABSENT, Claimed, Computed, Term, calls};
+pub(crate) use self::hooks::{Attempt, Delivery, Due, EventKind, Hook, HookState};
 pub(crate) use self::jobs::{End, Job, Task, TaskResult};
 pub(crate) use self::logins::{LONGEST, Token};
 pub(crate) use self::machines::Machine;
@@ -65,6 +67,8 @@ pub(crate) enum StoreError {
     LastAdmin,
     /// The key of a request that may be sent again was used for another request.
     Reused,
+    /// There are as many as there may be.
+    TooMany,
     /// The disk is full.
     Full,
     /// Others write: it did not get its turn in time.
@@ -82,6 +86,7 @@ impl fmt::Display for StoreError {
             StoreError::Forbidden => out.write_str("there is no right to it"),
             StoreError::LastAdmin => out.write_str("an admin of everything has to stay"),
             StoreError::Reused => out.write_str("the key was used for another request"),
+            StoreError::TooMany => out.write_str("there are as many as there may be"),
             StoreError::Full => out.write_str("the disk is full"),
             StoreError::Busy => out.write_str("others write for too long"),
             StoreError::Database(words) => out.write_str(words),

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::documents::now;
+use super::hooks::events::released;
 use super::programs::Said;
 use super::session::{Row, Session, values};
 use super::{Store, StoreError};
@@ -101,18 +102,23 @@ impl Store {
             if !may || !holds() {
                 return Err(StoreError::Changed);
             }
+            let mut before = Vec::new();
             if to == State::Released {
-                let before = store.read(
+                before = store.read(
                     "SELECT id FROM translation WHERE program = $1 AND target = $2 AND state = 'released'",
                     values![program, target],
                     |mut row| row.text(0),
                 )?;
-                for before in before {
+                for before in &before {
                     let why = Said { message: format!("{id} is released"), ..said.clone() };
-                    self.enter(store, &before, State::Obsolete, &why)?;
+                    self.enter(store, before, State::Obsolete, &why)?;
                 }
             }
-            self.enter(store, id, to, said)
+            self.enter(store, id, to, said)?;
+            match to {
+                State::Released => released(store, id, [&said.author, &said.message], &before),
+                _ => Ok(()),
+            }
         })
     }
 

@@ -5,7 +5,7 @@ mod audit;
 mod folders;
 mod forged;
 mod roles;
-mod tls;
+pub(crate) mod tls;
 mod tokens;
 
 use std::time::Duration;

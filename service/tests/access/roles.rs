@@ -70,6 +70,13 @@ fn named_payload(name: &str) -> Value {
     json!({ "prog_name": name, "machine_name": "romi", "dialect": "mach9", "blocks": [] })
 }
 
+/// The target of hooks. No event is about their folder, so nothing is sent there.
+const TARGET: &str = "http://127.0.0.1:9/";
+
+fn hook() -> Value {
+    json!({ "target": format!("{TARGET}a"), "events": ["release"], "folder": "nothing/here" })
+}
+
 /// Addresses of programs, translations and jobs.
 fn programs() -> Vec<Row> {
     let translation: fn(&Things) -> Value = |own| json!({ "program": own.program, "to": "fanuc" });
@@ -158,6 +165,13 @@ fn others() -> Vec<Row> {
         ),
         row("DELETE", "/api/v1/accounts/{account}", "", "admin", 204, 403),
         row("GET", "/api/v1/audit", "", "admin", 200, 403),
+        row("GET", "/api/v1/hooks", "", "admin", 200, 403),
+        with(row("POST", "/api/v1/hooks", "", "admin", 201, 403), Body::Json(|_| hook())),
+        row("GET", "/api/v1/hooks/{hook}", "", "admin", 200, 403),
+        row("DELETE", "/api/v1/hooks/{hook}", "", "admin", 204, 403),
+        row("GET", "/api/v1/hooks/{hook}/deliveries", "", "admin", 200, 403),
+        // Nothing was delivered.
+        row("POST", "/api/v1/hooks/{hook}/deliveries/none", "", "admin", 404, 403),
         row("GET", "/metrics", "", "reader", 200, 404),
         row("GET", "/", "", "anybody", 200, 0),
         row("GET", "/api/v1/openapi.json", "", "anybody", 200, 0),
@@ -267,6 +281,7 @@ fn prepared(server: &Server, root: &User, row: &Row, name: &str) -> (String, Thi
         );
         assert_eq!(made.status, 201, "{}", made.text());
     }
+    let hook = if needs("{hook}") { make(server, root, "/api/v1/hooks", &hook()) } else { String::new() };
     if needs("{account}") {
         let made = root.ask(server, "POST", "/api/v1/accounts", &account(&format!("{name}-a"), &[]));
         assert_eq!(made.status, 201, "{}", made.text());
@@ -278,6 +293,7 @@ fn prepared(server: &Server, root: &User, row: &Row, name: &str) -> (String, Thi
         .replace("{document}", &format!("{name}-d"))
         .replace("{machine}", &format!("{name}-m"))
         .replace("{account}", &format!("{name}-a"))
+        .replace("{hook}", &hook)
         .replace("{name}", name);
     (target, own)
 }
@@ -299,7 +315,7 @@ fn expected(row: &Row, caller: &Caller) -> u16 {
 
 #[test]
 fn each_role_may_do_what_the_table_says() {
-    let server = Server::limited(limits());
+    let server = Server::telling(&[TARGET.to_owned()], limits());
     let root = admin(&server);
     let romi =
         root.ask(&server, "PUT", "/api/v1/machines/romi", &serde_json::from_str(TABLE_10).expect("JSON"));

@@ -17,13 +17,13 @@ use super::{CHEAP, PASSWORD, admin, limits, user};
 use crate::client::{Server, place};
 
 /// A certificate of a name, and its files.
-struct Pair {
+pub(crate) struct Pair {
     folder: TempDir,
     certificate: CertificateDer<'static>,
 }
 
 impl Pair {
-    fn of(names: &[&str]) -> Pair {
+    pub(crate) fn of(names: &[&str]) -> Pair {
         let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
         let own = rcgen::generate_simple_self_signed(names).expect("a certificate");
         let folder = tempfile::tempdir().expect("a folder");
@@ -33,7 +33,7 @@ impl Pair {
         Pair { folder, certificate: own.cert.der().clone() }
     }
 
-    fn files(&self) -> [PathBuf; 2] {
+    pub(crate) fn files(&self) -> [PathBuf; 2] {
         ["cert.pem", "key.pem"].map(|name| self.folder.path().join(name))
     }
 }
