@@ -21,6 +21,7 @@ use rustls::pki_types::CertificateDer;
 use rustls::pki_types::pem::PemObject;
 use ureq::tls::{Certificate, RootCerts, TlsConfig, TlsProvider};
 use ureq::{Agent, Error};
+use webpki_root_certs::TLS_SERVER_ROOT_CERTS;
 
 use super::signing::signature;
 use crate::{Hooks, Limits};
@@ -145,15 +146,10 @@ impl Targets {
             }
         };
         let all = stated.targets.iter().map(target).collect::<Result<Vec<_>, String>>()?;
-        let mut roots: Vec<Certificate<'static>> =
-            webpki_root_certs::TLS_SERVER_ROOT_CERTS.iter().map(|own| Certificate::from_der(own)).collect();
-        for own in stated.authorities.iter().map(|file| authorities(file)) {
-            roots.extend(own?.iter().map(|own| Certificate::from_der(own).to_owned()));
-        }
         let tls = TlsConfig::builder()
             .provider(TlsProvider::Rustls)
             .unversioned_rustls_crypto_provider(Arc::new(ring::default_provider()))
-            .root_certs(RootCerts::from(roots))
+            .root_certs(RootCerts::from(authorities(stated.authorities.as_deref())?))
             .build();
         let config = Agent::config_builder()
             .tls_config(tls)
@@ -227,8 +223,15 @@ impl Targets {
     }
 }
 
-/// The certificates of a PEM file.
-fn authorities(file: &Path) -> Result<Vec<CertificateDer<'static>>, String> {
+/// Certificates of the authorities of the web, and of those of a PEM file.
+fn authorities(file: Option<&Path>) -> Result<Vec<Certificate<'static>>, String> {
+    let own = file.map(read).transpose()?.unwrap_or_default();
+    let all = TLS_SERVER_ROOT_CERTS.iter().chain(&own);
+    Ok(all.map(|own| Certificate::from_der(own).to_owned()).collect())
+}
+
+/// The certificates of a PEM file. The client would leave out those that it cannot read.
+fn read(file: &Path) -> Result<Vec<CertificateDer<'static>>, String> {
     let wrong = |why: &dyn std::fmt::Display| format!("{}: {why}", file.display());
     let all = CertificateDer::pem_file_iter(file).and_then(Iterator::collect::<Result<Vec<_>, _>>);
     let all = all.map_err(|error| wrong(&error))?;
@@ -335,6 +338,22 @@ mod tests {
             assert!(targets(&[wrong]).is_err(), "{wrong}");
         }
         assert!(targets(&[]).expect("none").allowed("https://erp.example/").is_err());
+    }
+
+    #[test]
+    fn authorities_of_the_web_are_among_those_of_the_client() {
+        let all = authorities(None).expect("certificates");
+        let mut roots = RootCertStore::empty();
+        let all = all.iter().map(|own| CertificateDer::from_slice(own.der()).into_owned());
+        let (known, unknown) = roots.add_parsable_certificates(all);
+        assert!(known > 100 && unknown == 0, "{known} {unknown}");
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("own.pem");
+        for wrong in ["", "no certificate", "-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n"]
+        {
+            std::fs::write(&file, wrong).expect("a file");
+            assert!(authorities(Some(&file)).is_err(), "{wrong}");
+        }
     }
 
     #[test]

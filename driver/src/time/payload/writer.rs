@@ -48,7 +48,15 @@ impl<'m, W: Write> Writer<'m, W> {
             }
             out.write_all(b"  \"blocks\": [")?;
         }
-        Ok(Writer { machine, columns: Columns::default(), look, any: false, feed: 0.0, text: Vec::new(), out })
+        Ok(Writer {
+            machine,
+            columns: Columns::default(),
+            look,
+            any: false,
+            feed: 0.0,
+            text: Vec::new(),
+            out,
+        })
     }
 
     /// Writes what stands after the blocks.
