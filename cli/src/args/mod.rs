@@ -143,7 +143,7 @@ pub enum Verb {
     Studio(Studio),
     /// Programs, their documents and outputs over HTTP, kept in a database
     #[cfg(feature = "serve")]
-    Serve(crate::serve::Serve),
+    Serve(Box<crate::serve::Serve>),
     /// Do two programs make the same cut? As strictly as a translation is verified; certificates
     Verify(Box<crate::review::args::Verify>),
     /// Do two programs make the same cut? If not, what differs?
