@@ -38,6 +38,10 @@ pub struct Cli {
     /// A dictionary of your own; its name can then be used as any dialect's [may be repeated]
     #[arg(long, global = true, value_name = "FILE")]
     pub dialect: Vec<PathBuf>,
+    /// Start the programs that dictionaries of your own name for custom functions (`[functions]`): they can do whatever
+    /// you can
+    #[arg(long, global = true)]
+    pub run_functions: bool,
     /// Look for called programs in this folder, in files named as the control's custom is: O1234.nc,
     /// POCKET.SPF [may be repeated]
     #[arg(short = 'I', long = "include", global = true, value_name = "DIR")]

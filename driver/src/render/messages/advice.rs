@@ -25,6 +25,9 @@ use crate::review::words::decimal;
 const ARC_TOLERANCES: [(u64, &str); 4] =
     [(30_000_000, "0.03"), (50_000_000, "0.05"), (100_000_000, "0.1"), (200_000_000, "0.2")];
 
+/// Most lines that are shown of the standard error of a user's program.
+const SAID: usize = 8;
+
 /// The helps of a fault, each an action. Empty if the message suffices.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
     message(fault, at).helps(helps(fault, at))
@@ -230,6 +233,12 @@ pub fn details(fault: &Fault) -> Vec<String> {
     match fault {
         Fault::NotTheSame { difference } => {
             plain_upto(difference, 600).split("; ").map(str::to_owned).collect()
+        }
+        // The end of what it wrote says most.
+        Fault::FunctionFailed { said, .. } => {
+            let lines: Vec<String> =
+                said.lines().filter(|line| !line.trim().is_empty()).map(|line| plain_upto(line, 160)).collect();
+            lines[lines.len().saturating_sub(SAID)..].to_vec()
         }
         _ => Vec::new(),
     }
