@@ -40,6 +40,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("a fact of `[power_on]`", "PowerOnFact", "[power_on.units]\n@"),
     ("`[[option]]`", "OptionRow", "[[option]]\nname = \"tapping\"\n@"),
     ("`[[behaviour]]`", "BehaviourRow", "[[behaviour]]\nname = \"spindle-at-change\"\n@"),
+    ("`[functions.…]`", "FunctionRow", "[functions.G200]\n@"),
     ("`[can]`", "Can", "[can]\n@"),
     ("`[[variant]]`", "VariantRow", "[[variant]]\nwhen = { a = \"b\" }\n@"),
     ("`[variant.block]`", "VariantBlock", "[[variant]]\nwhen = { a = \"b\" }\n[variant.block]\n@"),
