@@ -17,8 +17,8 @@ use crate::run_time::RunTime;
 use crate::source::Span;
 use crate::syntax::{Expected, Found, Ranged};
 use crate::unexecuted::{NoCorner, Unexecuted};
-use crate::unsupported::{FunctionFailure, Unsupported};
 use crate::unsupported::left_out::LeftOut;
+use crate::unsupported::{FunctionFailure, Unsupported};
 
 /// What was found, and where.
 #[derive(Clone, Debug, PartialEq)]

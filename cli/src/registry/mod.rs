@@ -17,8 +17,8 @@ use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
 use ncc_dialects::{
-    Dialect, DialectError, DialectFault, ElsewhereRow, FunctionHost, Place, Text, builtin, builtin_ids, builtin_text,
-    builtins, load,
+    Dialect, DialectError, DialectFault, ElsewhereRow, FunctionHost, Place, Text, builtin, builtin_ids,
+    builtin_text, builtins, load,
 };
 use ncc_driver::functions::Functions;
 use ncc_driver::problem::{Exit, Problem};

@@ -162,7 +162,10 @@ fn what_a_program_does_wrong_is_refused_at_the_block() {
         ("cp $2 $3", "the answer of your program is not a list of blocks"),
         ("head -c 40000001 /dev/zero > $3", "your program wrote more than 40000000 bytes"),
         ("sed 's/G200\",/SELECT_TOOL\",/' $2 > $3", "the answer of your program is not a list of blocks"),
-        ("sed 's/\"function_name\":\"G200\"/\"function_name\":\"SELECT_TOOL\"/' $2 > $3", "SELECT_TOOL is not taken"),
+        (
+            "sed 's/\"function_name\":\"G200\"/\"function_name\":\"SELECT_TOOL\"/' $2 > $3",
+            "SELECT_TOOL is not taken",
+        ),
         ("echo no such slot >&2; exit 3", "your program ended with exit code 3"),
         ("kill -9 $$", "a signal ended your program"),
     ];
@@ -193,7 +196,9 @@ fn a_program_that_takes_too_long_ends_with_all_that_it_started() {
     script(at, "g201.sh", "sleep 600 &\necho $! > process\nsleep 600\n");
     allowed(at, "shop to canon together.nc").exits(1).says("G201: your program ran for 1 s and was ended");
     let process = fs::read_to_string(at.join("shop/process")).unwrap();
-    assert!((0..100).any(|_| is_over(process.trim()) || (std::thread::sleep(Duration::from_millis(20)), false).1));
+    assert!(
+        (0..100).any(|_| is_over(process.trim()) || (std::thread::sleep(Duration::from_millis(20)), false).1)
+    );
 }
 
 #[test]
@@ -204,7 +209,7 @@ fn an_interrupt_ends_the_program() {
     let mut command = called(at, "shop to canon part.nc --run-functions -o out.nc");
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let process = at.join("shop/process");
-    while fs::read_to_string(&process).is_ok_and(|text| text.ends_with('\n')) == false {
+    while !fs::read_to_string(&process).is_ok_and(|text| text.ends_with('\n')) {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
@@ -225,7 +230,11 @@ fn a_certificate_holds_as_long_as_the_program_answers_so() {
     assert!(cert.contains("\"shop functions\""), "{cert}");
     allowed(at, "verify --cert cert.json --recheck part.nc out.nc").exits(0);
     // The same moves by another answer.
-    script(at, "g200.sh", &SLOT.replace("\"$2\" > \"$3\"", "\"$2\" | sed 's/}]*$/} /' > \"$3\"; echo >> \"$3\""));
+    script(
+        at,
+        "g200.sh",
+        &SLOT.replace("\"$2\" > \"$3\"", "\"$2\" | sed 's/}]*$/} /' > \"$3\"; echo >> \"$3\""),
+    );
     let done = allowed(at, "verify --cert cert.json --recheck part.nc out.nc").exits(1);
     assert!(done.out.contains("dictionaries"), "{}", done.out);
     // Without the program nothing can be compared.

@@ -166,7 +166,8 @@ fn input(blocks: &[GivenBlock]) -> serde_json::Result<Vec<u8>> {
 /// A block of the source, in the form of the payload.
 fn given(block: &GivenBlock) -> Block<'_> {
     let [x, y, z, a, b, c] = block.position.map(units);
-    let parameters = block.parameters.iter().map(|(letter, value)| (letter.to_string(), Value::from(units(*value))));
+    let parameters =
+        block.parameters.iter().map(|(letter, value)| (letter.to_string(), Value::from(units(*value))));
     Block {
         gcode: block.gcode.as_str().into(),
         function_name: block.function_name.as_str().into(),

@@ -94,16 +94,29 @@ fn moves_feeds_and_switches_are_taken() {
     let all = json!([
         goes("STRAIGHT_TRAVERSE", AT, up, 0.0, json!({})),
         goes("STRAIGHT_FEED", up, AT, 50.0, json!({})),
-        goes("ARC_FEED", AT, [3.0, 2.0, 5.0], 50.0,
-            json!({ "i": 2.0, "j": 2.0, "turn": "clockwise", "plane": "XY", "full": false })),
+        goes(
+            "ARC_FEED",
+            AT,
+            [3.0, 2.0, 5.0],
+            50.0,
+            json!({ "i": 2.0, "j": 2.0, "turn": "clockwise", "plane": "XY", "full": false })
+        ),
         goes("DWELL", [3.0, 2.0, 5.0], [3.0, 2.0, 5.0], 0.0, json!({ "seconds": 0.5 })),
     ]);
     let answer = run(&all.to_string()).unwrap();
     let said = ["STRAIGHT_TRAVERSE", "SET_FEED_RATE", "STRAIGHT_FEED", "ARC_FEED", "DWELL"];
     assert_eq!(names(&answer), said);
     for name in [
-        "SET_FEED_RATE", "SET_SPINDLE_SPEED", "START_SPINDLE_CLOCKWISE", "START_SPINDLE_COUNTERCLOCKWISE",
-        "STOP_SPINDLE_TURNING", "FLOOD_ON", "MIST_ON", "COOLANT_OFF", "PROGRAM_STOP", "OPTIONAL_PROGRAM_STOP",
+        "SET_FEED_RATE",
+        "SET_SPINDLE_SPEED",
+        "START_SPINDLE_CLOCKWISE",
+        "START_SPINDLE_COUNTERCLOCKWISE",
+        "STOP_SPINDLE_TURNING",
+        "FLOOD_ON",
+        "MIST_ON",
+        "COOLANT_OFF",
+        "PROGRAM_STOP",
+        "OPTIONAL_PROGRAM_STOP",
     ] {
         let answer = run(&stays(name, json!({}))).unwrap();
         // The feed is the active one.
@@ -154,17 +167,24 @@ fn answers_that_are_no_list_of_blocks_are_refused() {
 #[test]
 fn blocks_that_are_not_taken_are_refused() {
     use FunctionFailure::*;
-    for name in ["SELECT_TOOL", "CHANGE_TOOL", "SET_DATA", "STRAIGHT_PROBE", "PROGRAM_END", "START_CYCLE", "HOLE"] {
+    for name in
+        ["SELECT_TOOL", "CHANGE_TOOL", "SET_DATA", "STRAIGHT_PROBE", "PROGRAM_END", "START_CYCLE", "HOLE"]
+    {
         assert_eq!(run(&stays(name, json!({}))), Err(Function { block: 1, function: name.into() }));
     }
-    let one = |block: Value| run(&json!([goes("FLOOD_ON", AT, AT, 0.0, json!({})), block]).to_string()).unwrap_err();
+    let one = |block: Value| {
+        run(&json!([goes("FLOOD_ON", AT, AT, 0.0, json!({})), block]).to_string()).unwrap_err()
+    };
     let feed = |from, to, feed| goes("STRAIGHT_FEED", from, to, feed, json!({}));
     assert_eq!(one(feed([1.0, 2.1, 5.0], AT, 10.0)), Start { block: 2, axis: 'Y' });
     assert_eq!(one(feed(AT, [4.0, 2.0, 5.0], 0.0)), NoFeed { block: 2 });
     assert_eq!(one(feed(AT, [4e7, 2.0, 5.0], 10.0)), TooLong { block: 2 });
     let dwell = goes("DWELL", AT, [4.0, 2.0, 5.0], 0.0, json!({ "seconds": 1 }));
     assert_eq!(one(dwell), Moves { block: 2, function: "DWELL".into() });
-    assert_eq!(one(goes("DWELL", AT, AT, 0.0, json!({}))), Parameter { block: 2, parameter: "seconds".into() });
+    assert_eq!(
+        one(goes("DWELL", AT, AT, 0.0, json!({}))),
+        Parameter { block: 2, parameter: "seconds".into() }
+    );
     let arc = |plane: &str, full: bool, j: Value| {
         let parameters = json!({ "i": 2.0, "j": j, "turn": "clockwise", "plane": plane, "full": full });
         one(goes("ARC_FEED", AT, [3.0, 2.0, 5.0], 10.0, parameters))

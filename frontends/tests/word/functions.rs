@@ -132,7 +132,11 @@ fn a_position_that_is_not_known_is_refused() {
     let after = format!("{HEAD}M98 P2\nG200\nM30\nO2\nG00 X5.\nM99\n");
     assert!(fault(&after).iter().any(|d| d.contains("'G200'")), "{:?}", fault(&after));
     let rotary = format!("{HEAD}G28 G91 A0.\nG90\nG200 X1.\nM30\n");
-    assert!(fault(&rotary).iter().any(|d| d.contains("PositionUnknown { axis: 'A' }")), "{:?}", fault(&rotary));
+    assert!(
+        fault(&rotary).iter().any(|d| d.contains("PositionUnknown { axis: 'A' }")),
+        "{:?}",
+        fault(&rotary)
+    );
 }
 
 #[test]
@@ -169,6 +173,12 @@ fn without_a_host_nothing_is_run() {
     let text = format!("{HEAD}G200 X4.\nG201\nG202\n");
     let out = read_with(Settings::new(dialect), true, text.as_bytes());
     let found = diagnostics(&out, &text);
-    assert!(found.contains(&"FunctionNotRun { name: 'G200', program: 'a' } at 'G200'".to_owned()), "{found:?}");
-    assert!(found.contains(&"FunctionNotRun { name: 'G201', program: 'b c' } at 'G201'".to_owned()), "{found:?}");
+    assert!(
+        found.contains(&"FunctionNotRun { name: 'G200', program: 'a' } at 'G200'".to_owned()),
+        "{found:?}"
+    );
+    assert!(
+        found.contains(&"FunctionNotRun { name: 'G201', program: 'b c' } at 'G201'".to_owned()),
+        "{found:?}"
+    );
 }

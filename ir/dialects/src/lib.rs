@@ -43,9 +43,7 @@ pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
 pub use fault::{DialectError, DialectFault, Place, RowFault, Text, Unreadable};
 pub use formula::{FormulaRules, FunctionName, Operator, RemainderRule, Statement};
-pub use functions::{
-    FunctionAnswer, FunctionCall, FunctionHost, FunctionRow, GivenBlock, RunFunctions,
-};
+pub use functions::{FunctionAnswer, FunctionCall, FunctionHost, FunctionRow, GivenBlock, RunFunctions};
 pub use load::{builtin, builtin_ids, builtin_sha256, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};
 pub use names::*;

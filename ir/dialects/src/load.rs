@@ -21,7 +21,6 @@ use crate::schema::Dialect;
 
 use self::texts::{BUILTIN, IDS};
 
-
 // Dictionaries as the build script has prepared them, in the order of their texts.
 include!(concat!(env!("OUT_DIR"), "/dictionaries.rs"));
 

@@ -236,8 +236,11 @@ pub fn details(fault: &Fault) -> Vec<String> {
         }
         // The end of what it wrote says most.
         Fault::FunctionFailed { said, .. } => {
-            let lines: Vec<String> =
-                said.lines().filter(|line| !line.trim().is_empty()).map(|line| plain_upto(line, 160)).collect();
+            let lines: Vec<String> = said
+                .lines()
+                .filter(|line| !line.trim().is_empty())
+                .map(|line| plain_upto(line, 160))
+                .collect();
             lines[lines.len().saturating_sub(SAID)..].to_vec()
         }
         _ => Vec::new(),

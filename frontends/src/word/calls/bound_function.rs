@@ -48,16 +48,18 @@ fn function_code(block: &Block, dialect: &'static Dialect) -> Option<FunctionCod
         let Value::Number(digits) = word.value else { return None };
         let number = tenths(digits).filter(|_| matches!(word.letter, b'G' | b'M'))?;
         let begun = dialect.function(word.letter, number).map(|(name, row)| (name, row, false));
-        let found = begun.or_else(|| {
-            dialect.function_ended(word.letter, number).map(|(name, row)| (name, row, true))
-        });
+        let found = begun
+            .or_else(|| dialect.function_ended(word.letter, number).map(|(name, row)| (name, row, true)));
         found.map(|(name, row, ends)| FunctionCode { name, row, ends, span: word.span })
     })
 }
 
 /// Whether a block has something besides words that a function cannot have.
 fn has_more(block: &Block) -> bool {
-    block.statement.is_some() || !block.settings.is_empty() || block.decision.is_some() || !block.names.is_empty()
+    block.statement.is_some()
+        || !block.settings.is_empty()
+        || block.decision.is_some()
+        || !block.names.is_empty()
 }
 
 impl Lower {
@@ -69,7 +71,7 @@ impl Lower {
         let open = self.functions.as_mut().and_then(|state| state.open.take());
         match (open, code) {
             (None, None) => self.lowered(block, src, out),
-            (None, Some(code)) => self.function(&code, block, src, out),
+            (None, Some(code)) => self.bound_function(&code, block, src, out),
             (Some(open), code) => self.function_goes_on(open, code.as_ref(), block, src, out),
         }
         self.follow(out);
@@ -120,7 +122,7 @@ impl Lower {
     }
 
     /// A block with the code of a function, where none is open.
-    fn function(&mut self, code: &FunctionCode, block: &Block, src: Source, out: &mut Batch) {
+    fn bound_function(&mut self, code: &FunctionCode, block: &Block, src: Source, out: &mut Batch) {
         self.begin_function_block(block, src, out);
         self.jumped_to(block, out);
         if self.target(out).len() > self.now.mark {
@@ -339,12 +341,15 @@ impl Lower {
         let row = self.letters[usize::from(word.letter - b'A')];
         let num = match row {
             Some(row) => self.number(word, row.quantity, src, out)?,
-            None => Num { mantissa: digits.mantissa, scale: digits.scale, point: digits.point, unit: Unit::One },
+            None => {
+                Num { mantissa: digits.mantissa, scale: digits.scale, point: digits.point, unit: Unit::One }
+            }
         };
         let inch = self.state.modes.units.value() == Some(Units::Inch);
         let wrong = |word: &Word| Fault::OutOfRange { word: src.text(word.span).into() };
         let Some(value) = num.nanos(inch) else { return self.refuse(wrong(word), word.span, out) };
-        let Some(axis) = row.filter(|row| row.role == Role::Axis).and_then(|_| self.axis_row_of(word.letter)) else {
+        let Some(axis) = row.filter(|row| row.role == Role::Axis).and_then(|_| self.axis_row_of(word.letter))
+        else {
             return Some(value);
         };
         if axis.is_rotary() {
@@ -356,9 +361,7 @@ impl Lower {
                 Some(value) => Some(value),
                 None => self.refuse(wrong(word), word.span, out),
             },
-            Fact::Entry => {
-                self.refuse(Fault::EntryFactNeeded { fact: ModeName::Distance }, word.span, out)
-            }
+            Fact::Entry => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Distance }, word.span, out),
         }
     }
 
@@ -399,7 +402,11 @@ impl Lower {
 
     /// Refuses blocks that cannot be among those of a function.
     fn check_inside(&mut self, open: &OpenFunction, block: &Block, out: &mut Batch) {
-        let named = self.now.number.filter(|_| self.computes.jumps).is_some_and(|number| !self.computes.passes(number));
+        let named = self
+            .now
+            .number
+            .filter(|_| self.computes.jumps)
+            .is_some_and(|number| !self.computes.passes(number));
         let what = if block.skip != 0 {
             FunctionUnsupported::Skipped
         } else if has_more(block) {

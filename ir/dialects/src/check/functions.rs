@@ -13,7 +13,8 @@ pub(super) fn check(dialect: &Dialect, index: &CodeIndex, places: &Places) -> Re
     for (name, row) in &dialect.functions {
         let place = places.functions.get(name).cloned();
         let wrong = |code: &str, wrong| (DialectFault::Row { row: code.to_owned(), wrong }, place.clone());
-        let unreadable = |code: &str, why| (DialectFault::Unreadable { row: code.to_owned(), why }, place.clone());
+        let unreadable =
+            |code: &str, why| (DialectFault::Unreadable { row: code.to_owned(), why }, place.clone());
         if dialect.family != Family::Word {
             return Err(wrong(name, RowFault::FunctionOfWords));
         }
@@ -28,12 +29,15 @@ pub(super) fn check(dialect: &Dialect, index: &CodeIndex, places: &Places) -> Re
                 return Err(wrong(code, RowFault::FunctionOfCode));
             }
             let same = |other: &str| tenths(other) == Some((letter, number));
-            let uses = dialect.functions.iter().flat_map(|(name, row)| std::iter::once(name).chain(&row.until));
+            let uses =
+                dialect.functions.iter().flat_map(|(name, row)| std::iter::once(name).chain(&row.until));
             if uses.filter(|other| same(other)).count() > 1 {
                 return Err(wrong(code, RowFault::Twice));
             }
         }
-        if row.command.first().is_none_or(String::is_empty) || row.command.iter().any(|word| word.contains('\0')) {
+        if row.command.first().is_none_or(String::is_empty)
+            || row.command.iter().any(|word| word.contains('\0'))
+        {
             return Err(wrong(name, RowFault::NoCommand));
         }
         if !TIME_LIMITS.contains(&row.time_limit) || !BLOCKS.contains(&row.most_blocks) {
