@@ -207,7 +207,8 @@ impl Lower {
     /// Refuses a function where its program cannot know what it has to.
     fn may_be_called(&mut self, code: &FunctionCode, block: &Block, out: &mut Batch) -> Option<()> {
         use FunctionUnsupported as No;
-        let on = |know: &Know<bool>| matches!(know, Know::Said(true) | Know::Lost);
+        let (tip, tilt) = (self.state.tip, self.state.modes.tilt);
+        let tilted = self.tip.ends(tip) | self.tilt.ends(tilt);
         let state = &self.state;
         let tracker = self.functions.as_ref().map(|state| &state.tracker)?;
         let what = if block.skip != 0 {
@@ -216,11 +217,11 @@ impl Lower {
             Some(No::BesideCodes)
         } else if !self.computes.loops.is_empty() || !self.o.open.is_empty() {
             Some(No::InStructure)
-        } else if on(&state.compensated) || tracker.compensated {
+        } else if matches!(state.compensated, Know::Said(true) | Know::Lost) || tracker.compensated {
             Some(No::Compensated)
         } else if state.cycle != CycleState::None || tracker.cycle.is_some() || tracker.cycle_in_doubt {
             Some(No::InCycle)
-        } else if on(&state.tip) || on(&state.modes.tilt) || tracker.tilted {
+        } else if tilted || tracker.tilted {
             Some(No::Tilted)
         } else if state.words != AxisWords::Cartesian {
             Some(No::Polar)
