@@ -38,10 +38,6 @@ pub struct Cli {
     /// A dictionary of your own; its name can then be used as any dialect's [may be repeated]
     #[arg(long, global = true, value_name = "FILE")]
     pub dialect: Vec<PathBuf>,
-    /// Start the programs that dictionaries of your own name for custom functions (`[functions]`): they can do whatever
-    /// you can
-    #[arg(long, global = true)]
-    pub run_functions: bool,
     /// Look for called programs in this folder, in files named as the control's custom is: O1234.nc,
     /// POCKET.SPF [may be repeated]
     #[arg(short = 'I', long = "include", global = true, value_name = "DIR")]
@@ -74,6 +70,10 @@ pub struct Cli {
     /// Ignore `ncc.toml`, the project file that states machines of programs
     #[arg(long, global = true)]
     pub no_config: bool,
+    /// Start the programs that dictionaries of your own name for custom functions (`[functions]`): they can do whatever
+    /// you can
+    #[arg(long, global = true)]
+    pub run_functions: bool,
     /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
     #[arg(
         long,
