@@ -1,7 +1,7 @@
 //! Starts programs of the user for custom functions (`[functions]` of a dictionary), where `--run-functions` allows it.
 //!
 //! ```text
-//! python3 functions/g200.py /tmp/ncc-function-x/blocks.json /tmp/ncc-function-x/answer.json
+//! python3 functions/g200.py ncc-function-x/blocks.json ncc-function-x/answer.json
 //! ```
 //!
 //! A program runs in the folder of its dictionary, with the environment of ncc, without input, and with its standard output

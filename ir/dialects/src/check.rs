@@ -225,7 +225,8 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             return Err((DialectFault::NoDefaultValue { name, among }, places.option.get(at).cloned()));
         }
     }
-    functions::check(dialect, &index, places)?;
+    functions::check(dialect, &index)
+        .map_err(|(name, fault)| (fault, places.functions.get(name).cloned()))?;
     index.find_meanings(&dialect.code, &dialect.name);
     index.find_behaviours(&dialect.option);
     Ok(index)

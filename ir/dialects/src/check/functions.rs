@@ -2,19 +2,20 @@
 //!
 //! Not here: whether the program is there, which is seen where it is started.
 
-use super::{Fault, Places};
 use crate::codes::{CodeIndex, tenths};
 use crate::fault::{DialectFault, RowFault, Unreadable};
 use crate::functions::{BLOCKS, TIME_LIMITS};
 use crate::schema::{Dialect, Family};
 
 /// Checks all rows of `[functions]`.
-pub(super) fn check(dialect: &Dialect, index: &CodeIndex, places: &Places) -> Result<(), Fault> {
+///
+/// # Errors
+/// The name of a row, and what is wrong with it.
+pub(super) fn check<'d>(dialect: &'d Dialect, index: &CodeIndex) -> Result<(), (&'d str, DialectFault)> {
     for (name, row) in &dialect.functions {
-        let place = places.functions.get(name).cloned();
-        let wrong = |code: &str, wrong| (DialectFault::Row { row: code.to_owned(), wrong }, place.clone());
+        let wrong = |code: &str, wrong| (name.as_str(), DialectFault::Row { row: code.to_owned(), wrong });
         let unreadable =
-            |code: &str, why| (DialectFault::Unreadable { row: code.to_owned(), why }, place.clone());
+            |code: &str, why| (name.as_str(), DialectFault::Unreadable { row: code.to_owned(), why });
         if dialect.family != Family::Word {
             return Err(wrong(name, RowFault::FunctionOfWords));
         }
