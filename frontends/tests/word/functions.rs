@@ -15,7 +15,7 @@ use crate::Batch;
 const SHOP: &str = "id = \"shop\"\ntitle = \"\"\nbase = \"fanuc\"\n[functions]\n\
     G200 = { command = [\"a\"] }\nG201 = { command = [\"b\", \"c\"], until = \"G202\" }\n";
 
-const HEAD: &str = "G21 G17 G90 G94 G98 G54 G40 G80 G92.1\nS1000 M03\nG43 H1 Z5. G0 X1. Y2. F100.\n";
+const HEAD: &str = "G21 G17 G90 G94 G98 G54 G40 G80\nS1000 M03\nG43 H1 Z5. G0 X1. Y2. F100.\n";
 
 /// Takes a note of the calls; moves to X9 at feed, and back.
 #[derive(Debug, Default)]
