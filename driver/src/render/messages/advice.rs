@@ -84,6 +84,8 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         Fault::ArcRadiiDiffer { radii, allowed } => {
             vec![Help::new("help"), arc_tolerance(at.to, *radii, *allowed, "--to-option")]
         }
+        // A function of a user's program does not know a start that is stated.
+        Fault::PositionUnknown { .. } if !at.from.functions.is_empty() => vec![Help::new("help")],
         Fault::PositionUnknown { .. } => vec![Help::new("help"), Help::new("help-start")],
         Fault::CallUnknown { name } => {
             let numbered = at.from.program.called.first().is_some_and(|form| form.starts_with('O'))

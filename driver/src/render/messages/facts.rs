@@ -165,7 +165,7 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
             m.text("code", plain(name)).text("program", plain_upto(program, PROGRAM))
         }
         Fault::FunctionFailed { name, program, why, .. } => {
-            m.reason(why).text("code", plain(name)).text("program", plain_upto(program, PROGRAM))
+            m.reason(why).text("called", plain(name)).text("program", plain_upto(program, PROGRAM))
         }
         Fault::AssumedNoEffect { code } => m.text("code", shown(code)),
         Fault::CodeLeftOut { what } => m.reason(what),

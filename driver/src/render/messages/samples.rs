@@ -452,6 +452,7 @@ fn every_reason_has_its_words() {
                 .text("code", "G68")
                 .text("target", "siemens")
                 .text("program", "python3 g200.py")
+                .text("called", "G200")
                 .typed(typed(at));
             if what.is_some_and(|what| what.contains("Function") || what == "BeforeLeadOut") {
                 message = message.text("function", "G4");
