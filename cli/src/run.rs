@@ -48,11 +48,13 @@ fn run_verb(arguments: Vec<OsString>) -> Exit {
         || arguments.iter().any(|a| a == "--format=json");
     // A shell's torn arrow is understood only where the target's name is known.
     let files = registry::files(&arguments);
-    let mut known = match DialectRegistry::with(&files, (!as_json).then_some(&mut err as &mut dyn WriteColor))
-    {
-        Ok(known) => known,
-        Err(problem) => return fail(&problem, &mut err, as_json),
-    };
+    let mut known = DialectRegistry::built_in();
+    if registry::runs_functions(&arguments) {
+        known.run_functions();
+    }
+    if let Err(problem) = known.add(&files, (!as_json).then_some(&mut err as &mut dyn WriteColor)) {
+        return fail(&problem, &mut err, as_json);
+    }
     let (arguments, arrow) = match honour(rewrite(arguments), &known) {
         Ok(both) => both,
         Err(problem) => return fail(&problem, &mut err, as_json),

@@ -29,6 +29,7 @@
 //! | translate | [`translate`], [`questions`], [`translate::split`] (one text as several files) |
 //! | compare two programs | [`side`], [`review`], [`translate::judge`] |
 //! | time, check, lay out | [`time`], [`check`], [`fmt`] |
+//! | let programs of the user process custom functions | [`functions`] |
 //! | say where text comes from | [`provenance`] |
 //! | tell it | [`render`], [`render::report`], [`render::explain`], [`render::dialects`] |
 //!
@@ -41,6 +42,7 @@
 pub mod check;
 pub mod dialect_test;
 pub mod fmt;
+pub mod functions;
 pub mod guess;
 pub mod job;
 pub mod listing;

@@ -20,10 +20,10 @@ use toml::{Table, Value};
 #[path = "src/fault.rs"]
 mod fault;
 #[allow(dead_code, unreachable_pub)]
-#[path = "src/merge.rs"]
+#[path = "src/load/merge.rs"]
 mod merge;
 #[allow(dead_code)]
-#[path = "src/texts.rs"]
+#[path = "src/load/texts.rs"]
 mod texts;
 
 fn main() -> Result<(), Box<dyn Error>> {

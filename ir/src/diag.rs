@@ -17,8 +17,8 @@ use crate::run_time::RunTime;
 use crate::source::Span;
 use crate::syntax::{Expected, Found, Ranged};
 use crate::unexecuted::{NoCorner, Unexecuted};
-use crate::unsupported::Unsupported;
 use crate::unsupported::left_out::LeftOut;
+use crate::unsupported::{FunctionFailure, Unsupported};
 
 /// What was found, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -354,6 +354,10 @@ faults! {
     RadiusUnknown { entry: Option<u32> } = 240, Error;
     /// A contour along which the tool cannot go without cutting into it.
     ContourUnreachable { why: Unreachable } = 241, Error;
+    /// A custom function, the program of the user that processes it, and nobody has agreed that ncc starts it.
+    FunctionNotRun { name: Box<str>, program: Box<str> } = 243, Error;
+    /// A program of the user fails, or ncc does not take its answer; `said` is the text of its standard error.
+    FunctionFailed { name: Box<str>, program: Box<str>, why: FunctionFailure, said: Box<str> } = 244, Error;
     /// A corner that cannot be rounded or chamfered.
     NoCorner { why: NoCorner } = 250, Error;
 
@@ -390,6 +394,8 @@ faults! {
     /// entry of that number was taken.
     AssumedRadius { entry: u32 } = 313, verdict(Verdict::Assumed);
 
+    /// A custom function means what a program of the user has made of its blocks.
+    AssumedFunction { name: Box<str>, program: Box<str> } = 314, verdict(Verdict::Assumed);
     /// Rotary axes, and the zero that points of the tool tip count from, are the same on both controls.
     AssumedTip = 320, verdict(Verdict::Assumed);
     /// The tool is swivelled to a tilted plane in the same way on both controls.

@@ -74,6 +74,7 @@ impl Fault {
             | Fault::AssumedContourPath
             | Fault::AssumedTip
             | Fault::AssumedTilt
+            | Fault::AssumedFunction { .. }
             | Fault::StartedAgain { .. }
             | Fault::OpenBehaviour { .. }
             | Fault::CallDepth { .. }
@@ -161,6 +162,8 @@ impl Fault {
             | Fault::OpeningMarkMissing { .. }
             | Fault::UnknownCode { .. }
             | Fault::NotSupported { .. }
+            | Fault::FunctionNotRun { .. }
+            | Fault::FunctionFailed { .. }
             | Fault::CodesExclude { .. }
             | Fault::WordUnused { .. }
             | Fault::WordMissing { .. }

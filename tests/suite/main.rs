@@ -35,6 +35,7 @@ mod order;
 mod pages;
 mod pairs;
 mod passes;
+mod processes;
 mod provenance;
 mod questions;
 mod recognise;

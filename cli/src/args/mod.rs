@@ -70,6 +70,10 @@ pub struct Cli {
     /// Ignore `ncc.toml`, the project file that states machines of programs
     #[arg(long, global = true)]
     pub no_config: bool,
+    /// Start the programs that dictionaries of your own name for custom functions (`[functions]`): they can do whatever
+    /// you can
+    #[arg(long, global = true)]
+    pub run_functions: bool,
     /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
     #[arg(
         long,

@@ -4,6 +4,7 @@
 //! is reported here, at its place in the file. Not here: what a dictionary means.
 
 pub mod dictionary_test;
+mod functions;
 pub(crate) mod recognised;
 
 use std::ffi::OsString;
@@ -16,9 +17,10 @@ use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
 use ncc_dialects::{
-    Dialect, DialectError, DialectFault, ElsewhereRow, Place, Text, builtin, builtin_ids, builtin_text,
-    builtins, load,
+    Dialect, DialectError, DialectFault, ElsewhereRow, FunctionHost, Place, Text, builtin, builtin_ids,
+    builtin_text, builtins, load,
 };
+use ncc_driver::functions::Functions;
 use ncc_driver::problem::{Exit, Problem};
 use ncc_driver::render::dictionary::{BaseRow, Words, words};
 use ncc_driver::review::verify::document::Hashed;
@@ -51,6 +53,8 @@ pub struct DialectRegistry {
     m_codes: Vec<MCode>,
     /// Programs whose calls are left out.
     calls_left_out: Vec<String>,
+    /// Whether programs of the user may be started for custom functions.
+    run_functions: bool,
     /// Variables of definition files.
     variables_elsewhere: Vec<ElsewhereRow>,
     /// Project files; `None` if none counts.
@@ -65,21 +69,30 @@ impl DialectRegistry {
         DialectRegistry::default()
     }
 
-    /// Those, and the ones that files define. Called once in a process: what is read is kept.
+    /// Lets programs be started for the custom functions of dictionaries that are added from here on.
+    pub fn run_functions(&mut self) {
+        self.run_functions = true;
+    }
+
+    /// Gives each custom function the folder of its dictionary, and, where the user has agreed, somebody who starts programs.
+    fn bind_functions(&self, dialect: &mut Dialect, files: &[PathBuf]) -> io::Result<()> {
+        for row in dialect.functions.values_mut() {
+            let file = row.file.and_then(|at| files.get(at)).map_or(Path::new(""), PathBuf::as_path);
+            let folder = std::path::absolute(file)?;
+            row.folder = folder.parent().unwrap_or(&folder).to_owned();
+        }
+        if self.run_functions && !dialect.functions.is_empty() {
+            let host = Functions::new(Box::new(functions::Processes));
+            dialect.function_host = Some(FunctionHost::new(Arc::new(host)));
+        }
+        Ok(())
+    }
+
+    /// Adds what files define, and gives it. What is read is kept as long as the process lives.
     ///
     /// # Errors
     /// A file cannot be read, or is no dictionary; with `out`, the latter has been reported there, with
     /// its place, and the problem has no words of its own.
-    pub fn with(files: &[PathBuf], out: Option<&mut dyn WriteColor>) -> Result<DialectRegistry, Problem> {
-        let mut known = DialectRegistry::built_in();
-        known.add(files, out)?;
-        Ok(known)
-    }
-
-    /// Adds what files define, and gives it.
-    ///
-    /// # Errors
-    /// As of [`DialectRegistry::with`].
     pub fn add(
         &mut self,
         files: &[PathBuf],
@@ -95,7 +108,11 @@ impl DialectRegistry {
             None => Ok(loaded),
         });
         match loaded {
-            Ok(loaded) => {
+            Ok(mut loaded) => {
+                for dialect in &mut loaded {
+                    self.bind_functions(dialect, files)
+                        .map_err(|e| Problem::file("read", &dialect.id, &e))?;
+                }
                 let loaded: Vec<&'static Dialect> =
                     loaded.into_iter().map(|dialect| &*Box::leak(Box::new(dialect))).collect();
                 self.shops.extend(&loaded);
@@ -281,6 +298,11 @@ impl DialectRegistry {
     pub fn ids(&self) -> String {
         self.names().collect::<Vec<_>>().join(", ")
     }
+}
+
+/// Whether the arguments have `--run-functions`, before they are parsed.
+pub fn runs_functions(arguments: &[OsString]) -> bool {
+    arguments.iter().skip(1).take_while(|a| *a != "--").any(|a| a == "--run-functions")
 }
 
 /// The files that `--dialect` names, before the arguments are parsed.

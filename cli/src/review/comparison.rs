@@ -78,7 +78,10 @@ pub(crate) fn compare(
             }
         }
     }
-    Document::of(&found, sides, call).map_err(cannot_compare)
+    let mut document = Document::of(&found, sides, call).map_err(cannot_compare)?;
+    // They are known only now.
+    document.dictionaries.extend(hashes::answers(sides));
+    Ok(document)
 }
 
 /// Tells what was found in a program.

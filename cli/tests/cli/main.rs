@@ -11,6 +11,8 @@ mod dialects;
 mod diff;
 mod files;
 mod fmt;
+#[cfg(unix)]
+mod functions;
 mod given;
 #[cfg(unix)]
 mod interrupt;

@@ -104,6 +104,10 @@ dictionary-RoleTwice = two parameters of one role
 dictionary-NoCode = not a code
 dictionary-NeitherGNorM = not a G or M code
 dictionary-NoLetter = not a letter
+dictionary-FunctionOfWords = `[functions]` is for dialects of letters and numbers
+dictionary-FunctionOfCode = this code has a [[code]] row: take it away with `remove = true`
+dictionary-NoCommand = `command` needs a program: `["python3", "functions/g200.py"]`
+dictionary-FunctionLimits = `time_limit` is 1 to 600 s, `most_blocks` 1 to 100000
 
 # What `ncc dialects test` says of the rows of a dictionary.
 dictionary-cannot-write = cannot be written: { $why }

@@ -20,6 +20,7 @@ head-work-offset = work offset = { $value }
 head-no-length-offset = no length offset at the start
 head-no-origin-shift = no origin shift at the start
 head-no-effect = { $code } has no effect
+head-function = { $code } by a program of the user
 head-bare-number = { $word } without point = { $value }
 head-offset-with-z = tool length offset takes effect at the next Z move
 head-only-work-offset = the only work offset = { $value }

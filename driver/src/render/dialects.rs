@@ -8,6 +8,7 @@ use ncc_ir::canon::ReturnLevel;
 use ncc_ir::caps::ReturnsTo;
 
 use super::messages::message::{Message, Part};
+use super::text::plain;
 
 /// The form of a dictionary, for whoever writes one.
 pub const SCHEMA: &str = include_str!("../../../docs/book/src/reference/dialect.md");
@@ -54,6 +55,7 @@ fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     codes(out, d)?;
     names(out, d)?;
     calls(out, d)?;
+    functions(out, d)?;
     addresses(out, d)?;
     variants(out, d)?;
     power_on(out, &d.power_on)?;
@@ -73,6 +75,22 @@ fn shown(form: &'static str) -> Message {
 
 fn heading(out: &mut String, text: &Message) -> fmt::Result {
     write!(out, "\n{}:\n", text.headline())
+}
+
+fn functions(out: &mut String, d: &Dialect) -> fmt::Result {
+    if d.functions.is_empty() {
+        return Ok(());
+    }
+    heading(out, &shown("functions"))?;
+    for (name, row) in &d.functions {
+        let codes = row.until.as_ref().map_or(name.clone(), |until| format!("{name} … {until}"));
+        let does = shown("function")
+            .text("program", plain(&row.program()))
+            .text("seconds", row.time_limit.to_string())
+            .headline();
+        writeln!(out, "  {codes:<14}  {does}")?;
+    }
+    Ok(())
 }
 
 fn options(out: &mut String, d: &Dialect) -> fmt::Result {

@@ -109,6 +109,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
             ModeName::OriginShift => head("no-origin-shift"),
         },
         Fault::AssumedNoEffect { code } => head("no-effect").text("code", &**code),
+        Fault::AssumedFunction { name, .. } => head("function").text("code", &**name),
         Fault::AssumedBareNumber { word, value } => {
             head("bare-number").text("word", &**word).text("value", &**value)
         }

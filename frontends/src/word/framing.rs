@@ -299,6 +299,7 @@ impl Reader {
         }
         self.lower.open_loops(out);
         self.lower.open_bodies(out);
+        self.lower.open_functions(out);
         let in_sub = self.lower.sub.is_some();
         let expected = in_sub || self.frame.blocks;
         if expected && !self.lower.ended && !self.frame.faulty {

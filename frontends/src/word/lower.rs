@@ -34,6 +34,7 @@ use crate::common::only_value::OnlyValue;
 use crate::common::switched::Met;
 use crate::common::text::{begins, decode};
 use crate::initial_modes::Inherited;
+use crate::word::calls::function_state::FunctionState;
 use crate::word::macros::computes::Computes;
 use crate::word::o_code::o_state::OWordState;
 
@@ -86,6 +87,8 @@ pub(super) struct Lower {
     pub(super) radius: RadiusNamed,
     /// Letters of rotary axes that the text has named so far, a bit each.
     pub(super) rotary_named: u32,
+    /// For custom functions of the user's programs, of a dialect that has some.
+    pub(super) functions: Option<Box<FunctionState>>,
 }
 
 /// State of the block that is lowered.
@@ -206,6 +209,7 @@ impl Lower {
             tools: ToolsNamed::default(),
             radius: RadiusNamed::default(),
             rotary_named: 0,
+            functions: (!dialect.functions.is_empty()).then(Box::default),
         };
         lower.refresh();
         lower
@@ -213,6 +217,14 @@ impl Lower {
 
     /// Lowers a block.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        match self.functions {
+            None => self.lowered(block, src, out),
+            Some(_) => self.block_with_functions(block, src, out),
+        }
+    }
+
+    /// Lowers a block that is none of a function of the user's.
+    pub(super) fn lowered(&mut self, block: &Block, src: Source, out: &mut Batch) {
         self.cycle_before(out);
         self.in_loop(out);
         self.o_body(out);
@@ -460,7 +472,7 @@ impl Lower {
     }
 
     /// Ends the block: its comment, or the statement of an empty block.
-    fn close(&mut self, block: &Block, src: Source, out: &mut Batch) {
+    pub(super) fn close(&mut self, block: &Block, src: Source, out: &mut Batch) {
         if self.now.failed {
             let mark = self.now.mark;
             self.target(out).truncate(mark);

@@ -142,11 +142,13 @@ impl Reader {
     }
 
     pub(super) fn lines(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        self.lower.functions_begin(out);
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
             let open = !self.frame.closed && !self.lower.ended;
-            if open && let Some(end) = self.lower.short_way(text, at, base, self.uncounted, out) {
+            let plain = open && self.lower.functions.is_none();
+            if plain && let Some(end) = self.lower.short_way(text, at, base, self.uncounted, out) {
                 self.frame.blocks = true;
                 at = end + 1;
                 continue;
@@ -175,6 +177,7 @@ impl Reader {
             }
             at = end + 1;
         }
+        self.lower.follow(out);
         self.frame.end = base + text.len() as u32;
     }
 
@@ -206,6 +209,7 @@ impl Reader {
             self.end_of_program(out);
             self.end_of_text(out);
             self.lower.settle_main_ending(out);
+            self.lower.settle_functions(out);
             self.lower.computes.give_parameters(&mut out.procedures);
             self.lower.computes.cut_out_called_blocks(out);
             self.lower.computes.join_returns(out);

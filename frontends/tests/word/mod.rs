@@ -8,6 +8,7 @@ mod cycles;
 mod facts;
 mod faults;
 mod frame;
+mod functions;
 mod laws;
 mod motion;
 mod repeated_blocks;

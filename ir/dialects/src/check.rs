@@ -2,10 +2,11 @@
 //!
 //! What a row means is not judged here: `ncc dialects test` shows whether it reads back.
 
+mod functions;
 mod readable;
 pub(crate) mod unknown;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use ncc_ir::reason::{Reason, Values};
@@ -33,6 +34,7 @@ pub(crate) struct Places {
     pub(crate) behaviour: Vec<Range<usize>>,
     pub(crate) data: Vec<Range<usize>>,
     pub(crate) variant: Vec<Range<usize>>,
+    pub(crate) functions: BTreeMap<String, Range<usize>>,
 }
 
 /// Kinds of cycles, as `ncc_ir::program::cycle::CycleKind::name` has them.
@@ -223,6 +225,8 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             return Err((DialectFault::NoDefaultValue { name, among }, places.option.get(at).cloned()));
         }
     }
+    functions::check(dialect, &index)
+        .map_err(|(name, fault)| (fault, places.functions.get(name).cloned()))?;
     index.find_meanings(&dialect.code, &dialect.name);
     index.find_behaviours(&dialect.option);
     Ok(index)

@@ -2,8 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use crate::load::merge::same;
 use crate::load::renew;
-use crate::merge::same;
 use crate::schema::Dialect;
 use crate::variants::VariantRow;
 

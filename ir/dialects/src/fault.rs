@@ -237,6 +237,14 @@ row_faults! {
     NeitherGNorM,
     /// No letter.
     NoLetter,
+    /// A function of a user's program in a dialect whose words are no letters with numbers.
+    FunctionOfWords,
+    /// A function of a user's program whose code has a row.
+    FunctionOfCode,
+    /// A function without a program.
+    NoCommand,
+    /// A time limit or a number of blocks out of range.
+    FunctionLimits,
 }
 
 impl DialectFault {

@@ -13,7 +13,6 @@
 //! ```
 //!
 //! Not here: lexing, lowering and layout.
-
 mod behaviours;
 mod caps;
 mod check;
@@ -23,17 +22,16 @@ mod cycles;
 mod derive;
 mod fault;
 mod formula;
+mod functions;
 mod load;
 mod lookup;
 mod meaning;
-mod merge;
 mod names;
 mod power_on;
 mod repeats;
 mod schema;
 mod settings;
 mod stored;
-mod texts;
 mod variants;
 mod words;
 
@@ -45,6 +43,7 @@ pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
 pub use fault::{DialectError, DialectFault, Place, RowFault, Text, Unreadable};
 pub use formula::{FormulaRules, FunctionName, Operator, RemainderRule, Statement};
+pub use functions::{FunctionAnswer, FunctionCall, FunctionHost, FunctionRow, GivenBlock, RunFunctions};
 pub use load::{builtin, builtin_ids, builtin_sha256, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};
 pub use names::*;

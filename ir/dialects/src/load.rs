@@ -3,6 +3,9 @@
 //! A dictionary may build on another (`base`), which is laid under it before any field is read
 //! (`merge`); what is wrong is reported with its place, also if that lies in the base's text.
 
+pub(crate) mod merge;
+mod texts;
+
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -14,9 +17,9 @@ use crate::caps::caps;
 use crate::check::{self, Places};
 use crate::codes::CodeIndex;
 use crate::fault::{DialectError, DialectFault, Place, Text};
-use crate::merge;
 use crate::schema::Dialect;
-use crate::texts::{BUILTIN, IDS};
+
+use self::texts::{BUILTIN, IDS};
 
 // Dictionaries as the build script has prepared them, in the order of their texts.
 include!(concat!(env!("OUT_DIR"), "/dictionaries.rs"));
@@ -246,6 +249,12 @@ impl<'t> Texts<'t> {
             Dialect::deserialize(Deserializer::from(tree)).map_err(|e| reported(self.form(&e, 0)))?;
         let wrong = |(fault, at): check::Fault| reported(fault.at(at.and_then(|span| self.place(span))));
         check::spread(&mut dialect, &mut places).map_err(wrong)?;
+        for (name, row) in &mut dialect.functions {
+            let place = places.functions.get(name).and_then(|span| self.place(span.clone()));
+            if let Some(Text::File(at)) = place.map(|place| place.text) {
+                row.file = Some(at);
+            }
+        }
         dialect.index = check::index(&dialect, &places).map_err(wrong)?;
         check::variants(&dialect, &places).map_err(wrong)?;
         dialect.caps = caps(&dialect);
@@ -277,7 +286,10 @@ fn places(tree: &DeTable<'_>) -> Places {
         };
         rows.map(|rows| rows.iter().map(place).collect()).unwrap_or_default()
     };
+    let functions = tree.get("functions").and_then(|table| table.get_ref().as_table());
+    let functions = functions.into_iter().flatten();
     Places {
+        functions: functions.map(|(name, _)| (name.get_ref().to_string(), name.span())).collect(),
         address: rows("address"),
         cycle: rows("cycle"),
         pattern: rows("pattern"),

@@ -15,6 +15,7 @@ use crate::codes::{CodeIndex, CodeRow};
 use crate::corners::CornerRules;
 use crate::cycles::{CycleRow, CycleRules, PatternRow};
 use crate::formula::FormulaRules;
+use crate::functions::{FunctionHost, FunctionRow};
 use crate::meaning::Meaning;
 use crate::names::{CallRow, NameRow, ParameterRole};
 use crate::power_on::{PathName, PowerOn, SafeStart};
@@ -114,9 +115,15 @@ pub struct Dialect {
     /// Rows that hold where options are chosen so.
     #[serde(default)]
     pub variant: Vec<VariantRow>,
+    /// Custom functions that programs of the user process, by their codes.
+    #[serde(default)]
+    pub functions: BTreeMap<String, FunctionRow>,
     /// Capabilities that follow from no other row.
     #[serde(default)]
     pub can: Can,
+    /// Runs the programs of `functions`; `None` where nobody has agreed to that: no key of a dictionary.
+    #[serde(skip)]
+    pub function_host: Option<FunctionHost>,
     /// Capabilities, all of them; filled by the loader.
     #[serde(skip)]
     pub caps: Caps,
@@ -490,8 +497,25 @@ impl Dialect {
         self.name.iter().find(|row| row.name == name)
     }
 
+    /// The custom function of a G or M code given in tenths, with its name.
+    pub fn function(&self, letter: u8, tenths: u32) -> Option<(&str, &FunctionRow)> {
+        let found = self.functions.iter().find(|(name, _)| is_code(name, letter, tenths));
+        found.map(|(name, row)| (name.as_str(), row))
+    }
+
+    /// The custom function whose blocks a G or M code given in tenths ends, with its name.
+    pub fn function_ended(&self, letter: u8, tenths: u32) -> Option<(&str, &FunctionRow)> {
+        let ends = |row: &FunctionRow| row.until.as_ref().is_some_and(|code| is_code(code, letter, tenths));
+        self.functions.iter().find(|(_, row)| ends(row)).map(|(name, row)| (name.as_str(), row))
+    }
+
     /// The row of a call, whose name must be in capitals.
     pub fn call_row(&self, name: &str) -> Option<&CallRow> {
         self.call.iter().find(|row| row.name == name)
     }
+}
+
+/// Whether a name is the code of a letter and a number in tenths.
+fn is_code(name: &str, letter: u8, tenths: u32) -> bool {
+    crate::codes::tenths(name) == Some((letter, tenths as usize))
 }

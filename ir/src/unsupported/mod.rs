@@ -9,6 +9,7 @@ mod code;
 mod cycle;
 mod flow;
 mod frame;
+mod function;
 pub mod left_out;
 mod moves;
 mod polar;
@@ -25,6 +26,7 @@ pub use code::CodeUnsupported;
 pub use cycle::CycleUnsupported;
 pub use flow::FlowUnsupported;
 pub use frame::FrameUnsupported;
+pub use function::{FunctionFailure, FunctionUnsupported};
 pub use moves::MoveUnsupported;
 pub use polar::PolarUnsupported;
 pub use save::SaveUnsupported;
@@ -61,6 +63,8 @@ wings! {
         Value(ValueUnsupported),
         /// Modes that a subprogram saves and restores.
         Save(SaveUnsupported),
+        /// Custom functions of a user's program.
+        Function(FunctionUnsupported),
     }
 }
 

@@ -25,6 +25,9 @@ use crate::review::words::decimal;
 const ARC_TOLERANCES: [(u64, &str); 4] =
     [(30_000_000, "0.03"), (50_000_000, "0.05"), (100_000_000, "0.1"), (200_000_000, "0.2")];
 
+/// Most lines that are shown of the standard error of a user's program.
+const SAID: usize = 8;
+
 /// The helps of a fault, each an action. Empty if the message suffices.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
     message(fault, at).helps(helps(fault, at))
@@ -81,6 +84,8 @@ fn helps(fault: &Fault, at: Context) -> Option<Vec<Help>> {
         Fault::ArcRadiiDiffer { radii, allowed } => {
             vec![Help::new("help"), arc_tolerance(at.to, *radii, *allowed, "--to-option")]
         }
+        // A function of a user's program does not know a start that is stated.
+        Fault::PositionUnknown { .. } if !at.from.functions.is_empty() => vec![Help::new("help")],
         Fault::PositionUnknown { .. } => vec![Help::new("help"), Help::new("help-start")],
         Fault::CallUnknown { name } => {
             let numbered = at.from.program.called.first().is_some_and(|form| form.starts_with('O'))
@@ -230,6 +235,15 @@ pub fn details(fault: &Fault) -> Vec<String> {
     match fault {
         Fault::NotTheSame { difference } => {
             plain_upto(difference, 600).split("; ").map(str::to_owned).collect()
+        }
+        // The end of what it wrote says most.
+        Fault::FunctionFailed { said, .. } => {
+            let lines: Vec<String> = said
+                .lines()
+                .filter(|line| !line.trim().is_empty())
+                .map(|line| plain_upto(line, 160))
+                .collect();
+            lines[lines.len().saturating_sub(SAID)..].to_vec()
         }
         _ => Vec::new(),
     }

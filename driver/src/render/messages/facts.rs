@@ -27,6 +27,9 @@ use crate::render::text::{plain, plain_upto, shown};
 /// So much is shown of the words of a block in a headline, in characters.
 const WORDS: usize = 24;
 
+/// So much is shown of a program of the user with its arguments, in characters.
+const PROGRAM: usize = 32;
+
 /// The message of a fault.
 pub(crate) fn message(fault: &Fault, at: Context) -> Message {
     let m = Message::new(fault.code()).text("source", at.from.id.as_str()).text("target", at.to.id.as_str());
@@ -157,6 +160,12 @@ pub(crate) fn message(fault: &Fault, at: Context) -> Message {
 
         Fault::AssumedMode { fact, value } => {
             m.text("mode", mode(*fact)).text("value", mode_value(*fact, value))
+        }
+        Fault::FunctionNotRun { name, program } | Fault::AssumedFunction { name, program } => {
+            m.text("code", plain(name)).text("program", plain_upto(program, PROGRAM))
+        }
+        Fault::FunctionFailed { name, program, why, .. } => {
+            m.reason(why).text("called", plain(name)).text("program", plain_upto(program, PROGRAM))
         }
         Fault::AssumedNoEffect { code } => m.text("code", shown(code)),
         Fault::CodeLeftOut { what } => m.reason(what),

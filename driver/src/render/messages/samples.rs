@@ -18,7 +18,7 @@ use ncc_ir::program::numbered::Numbered;
 use ncc_ir::reason::{Reason, Values, Variants};
 use ncc_ir::run_time::{ComputedFrame, RunTime, RunTimeFlow};
 use ncc_ir::unexecuted::{FlowUnexecuted, NoCorner, Unexecuted, ValueUnexecuted};
-use ncc_ir::unsupported::{Unsupported, ValueUnsupported};
+use ncc_ir::unsupported::{FunctionFailure, Unsupported, ValueUnsupported};
 
 use super::advice::advice;
 use super::codes::typed;
@@ -31,6 +31,9 @@ use super::words::words;
 /// A headline has at most so many characters, and a label: the form of a message, with short values.
 const HEADLINE: usize = 70;
 const LABEL: usize = 60;
+
+/// Codes with an entry for each reason.
+const REASONED: [u16; 6] = [501, 226, 233, 250, 202, 244];
 
 /// A text in the samples, as short as a word of a block.
 fn t() -> Box<str> {
@@ -127,6 +130,13 @@ fn text_and_meaning() -> Vec<Fault> {
         RadiusUnknown { entry: None },
         ContourUnreachable { why: Unreachable::ShortLine },
         NoCorner { why: ncc_ir::unexecuted::NoCorner::NoSize },
+        FunctionNotRun { name: "G200".into(), program: "python3 g200.py".into() },
+        FunctionFailed {
+            name: "G200".into(),
+            program: "python3 g200.py".into(),
+            why: FunctionFailure::NoOutput,
+            said: "Traceback".into(),
+        },
     ]
 }
 
@@ -187,6 +197,7 @@ fn assumed() -> Vec<Fault> {
         AssumedMode { fact: ModeName::Plane, value: "G17".into() },
         AssumedMode { fact: ModeName::WorkOffset, value: "G54".into() },
         AssumedNoEffect { code: "M46".into() },
+        AssumedFunction { name: "G200".into(), program: "python3 g200.py".into() },
         AssumedBareNumber { word: "X100".into(), value: "100 mm".into() },
         AssumedOffsetWithZ,
         AssumedWorkOffset { offset: 1 },
@@ -424,6 +435,11 @@ fn every_reason_has_its_words() {
         name: (*name).to_owned(),
         fields,
     }));
+    all.extend(FunctionFailure::VARIANTS.iter().map(|(name, fields)| Named {
+        code: 244,
+        name: (*name).to_owned(),
+        fields,
+    }));
     let mut long = Vec::new();
     for reason in &all {
         // Each reason within a reason has words of its own, not those of the default.
@@ -435,6 +451,8 @@ fn every_reason_has_its_words() {
                 .text("source", "fanuc")
                 .text("code", "G68")
                 .text("target", "siemens")
+                .text("program", "python3 g200.py")
+                .text("called", "G200")
                 .typed(typed(at));
             if what.is_some_and(|what| what.contains("Function") || what == "BeforeLeadOut") {
                 message = message.text("function", "G4");
@@ -462,8 +480,8 @@ fn every_reason_has_its_words() {
 
     let mut known: Vec<String> =
         all.iter().map(|reason| format!("NC{:04}-{}", reason.code, reason.name)).collect();
-    known.extend([501, 226, 233, 250, 202].map(|code| format!("NC{code:04}")));
-    let entries = FILES.iter().filter(|files| [501, 226, 233, 250, 202].contains(&files.code));
+    known.extend(REASONED.map(|code| format!("NC{code:04}")));
+    let entries = FILES.iter().filter(|files| REASONED.contains(&files.code));
     let entries = entries.flat_map(|files| files.words.lines()).filter(|line| line.starts_with("NC"));
     let mut entries: Vec<String> =
         entries.map(|line| line.split(' ').next().unwrap_or("").to_owned()).collect();

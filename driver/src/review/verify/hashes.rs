@@ -31,6 +31,19 @@ pub fn dictionaries(sides: &[Side; 2], hashes: &dyn Fn(&str) -> Vec<Hashed>) -> 
     all
 }
 
+/// What programs of the user were given for custom functions and have answered: a row for each dialect with such programs.
+pub fn answers(sides: &[Side; 2]) -> Vec<Hashed> {
+    let mut all: Vec<Hashed> = Vec::new();
+    for dialect in sides.iter().map(Side::dialect) {
+        let digest = dialect.function_host.as_ref().and_then(|host| host.digest());
+        let name = format!("{} functions", dialect.id);
+        if let Some(digest) = digest.filter(|_| all.iter().all(|other| other.name != name)) {
+            all.push(Hashed { name, file: None, sha256: hex(&digest) });
+        }
+    }
+    all
+}
+
 /// The profiles of both sides, by the names that they were called by; each once. `read` has the file of one that does
 /// not come with ncc.
 ///

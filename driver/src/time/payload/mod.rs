@@ -24,7 +24,7 @@ use serde_json::{Map, Value};
 
 use super::drive::Stage;
 
-pub use reader::read;
+pub use reader::{read, read_blocks};
 pub use refusal::{NotProcessed, Unread};
 pub use writer::{Writer, write};
 

@@ -50,12 +50,22 @@ const FUNCTIONS: [&str; 29] = [
 /// # Errors
 /// It is no JSON, or not of this form.
 pub fn read(text: &[u8]) -> Result<Document, Unread> {
-    serde_json::from_slice(text).map_err(|error| {
-        let reason = error.to_string();
-        // The place is a field of its own.
-        let end = reason.rfind(" at line ").unwrap_or(reason.len());
-        Unread { line: error.line(), column: error.column(), reason: reason[..end].to_owned() }
-    })
+    serde_json::from_slice(text).map_err(unread)
+}
+
+/// Reads blocks alone, as a list.
+///
+/// # Errors
+/// It is no JSON, or not of this form.
+pub fn read_blocks(text: &[u8]) -> Result<Vec<Block<'static>>, Unread> {
+    serde_json::from_slice(text).map_err(unread)
+}
+
+fn unread(error: serde_json::Error) -> Unread {
+    let reason = error.to_string();
+    // The place is a field of its own.
+    let end = reason.rfind(" at line ").unwrap_or(reason.len());
+    Unread { line: error.line(), column: error.column(), reason: reason[..end].to_owned() }
 }
 
 /// A block as it is read.

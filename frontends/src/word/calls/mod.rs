@@ -7,8 +7,10 @@
 //!
 //! Not here: the language of O words (`o_code`).
 
+pub(super) mod bound_function;
 pub(super) mod call;
 pub(super) mod computed_call;
+pub(super) mod function_state;
 pub(super) mod local_call;
 pub(super) mod macro_call;
 pub(super) mod modal_call;
