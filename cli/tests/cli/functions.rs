@@ -263,7 +263,7 @@ fn what_is_wrong_with_a_function_is_told_at_its_place() {
 #[test]
 fn the_example_of_the_book() {
     if Command::new("python3").arg("--version").output().is_err() {
-        println!("skipped: no python3");
+        let _ = writeln!(std::io::stderr(), "skipped: no python3");
         return;
     }
     let page = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/book/src/use/own-dialect.md");
