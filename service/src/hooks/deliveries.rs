@@ -113,7 +113,7 @@ pub(super) async fn again(
         .store(&caller, move |store| {
             store.send_again(&id, &delivery).map_err(|error| match error {
                 StoreError::Changed => Problem::conflict("it is being sent, or its hook is stopped")
-                    .help("a hook that its receiver has stopped with 410 is made anew"),
+                    .help("make another hook where its receiver has stopped this one with 410"),
                 error => error.into(),
             })
         })
