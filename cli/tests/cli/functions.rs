@@ -147,7 +147,7 @@ fn a_function_with_its_end_gets_its_blocks_together() {
     assert_eq!(given.lines().count(), 5, "{given}");
 }
 
-/// What a program does wrong, and what ncc says.
+/// Faults of a program, each with the words of ncc about it.
 #[test]
 fn what_a_program_does_wrong_is_refused_at_the_block() {
     let folder = shop();

@@ -106,7 +106,7 @@ impl State {
         Ok(ops)
     }
 
-    /// Where a block starts and ends. One without rotary axes leaves them where they are.
+    /// Start and end of a block. A block without rotary axes leaves them as they are.
     fn ends(&self, block: &Block) -> ([f64; AXES], [f64; AXES]) {
         let [.., a, b, c] = self.position;
         let (a0, b0, c0, a1, b1, c1) = match block.rotary {

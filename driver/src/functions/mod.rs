@@ -30,7 +30,7 @@ use crate::time::payload::{Block, Rotary, read_blocks};
 /// Longest answer of a program, in bytes: 10,000 blocks of the usual 400 bytes, ten times.
 pub const MOST_BYTES: u32 = 40_000_000;
 
-/// Why a program gave no answer, and the end of what it has written to its standard error.
+/// The reason for a missing answer, and the end of the program's standard error.
 pub type Failed = (FunctionFailure, Box<str>);
 
 /// A program of the user, as it is to be started.
@@ -40,7 +40,7 @@ pub struct Program<'p> {
     pub command: &'p [String],
     /// The folder in which it runs.
     pub folder: &'p Path,
-    /// How long it may take.
+    /// The time after which it is ended.
     pub time_limit: Duration,
     /// Most bytes that it may answer with.
     pub most_bytes: u32,
@@ -55,7 +55,7 @@ pub trait StartProgram: Debug + Send + Sync {
     fn start(&self, program: &Program, input: &[u8]) -> Result<Vec<u8>, Failed>;
 }
 
-/// What is remembered of a call: the SHA-256 of the answer's bytes, and what was made of it.
+/// A call that was answered: the SHA-256 of the answer's bytes, and the statements made of it.
 #[derive(Clone, Debug)]
 struct Answered {
     sha256: [u8; 32],
@@ -140,10 +140,11 @@ fn made(call: &FunctionCall, bytes: &[u8]) -> Result<FunctionAnswer, FunctionFai
     answer::statements(call, &blocks)
 }
 
-/// What an answer depends on: the program, its input, and what is active.
+/// A digest of all that an answer depends on: the function, its program, its input, and the active modes.
 fn key(call: &FunctionCall, input: &[u8]) -> [u8; 32] {
     let mut digest = Sha256::new();
-    for part in &call.row.command {
+    // Two functions may have one command, relative to dictionaries in two folders.
+    for part in std::iter::once(call.name).chain(call.row.command.iter().map(String::as_str)) {
         digest.update(part);
         digest.update([0]);
     }

@@ -203,9 +203,10 @@ fn a_program_is_started_once_for_an_input() {
     assert_eq!(functions.digest(), None);
     let row = row();
     let mut blocks = [block()];
-    let run = |blocks: &[GivenBlock], units| {
-        functions.run(&FunctionCall { name: "G200", row: &row, units, plane: Plane::Xy, blocks }).unwrap();
+    let named = |name, blocks: &[GivenBlock], units| {
+        functions.run(&FunctionCall { name, row: &row, units, plane: Plane::Xy, blocks }).unwrap();
     };
+    let run = |blocks: &[GivenBlock], units| named("G200", blocks, units);
     run(&blocks, Units::Mm);
     run(&blocks, Units::Mm);
     assert_eq!(starts.load(Ordering::Relaxed), 1);
@@ -214,5 +215,8 @@ fn a_program_is_started_once_for_an_input() {
     run(&blocks, Units::Mm);
     run(&blocks, Units::Inch);
     assert_eq!(starts.load(Ordering::Relaxed), 3);
+    // Another function may have a program of the same name in another folder.
+    named("G201", &blocks, Units::Mm);
+    assert_eq!(starts.load(Ordering::Relaxed), 4);
     assert!(before.is_some() && before != functions.digest());
 }

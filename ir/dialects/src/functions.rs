@@ -125,7 +125,7 @@ pub trait RunFunctions: Debug + Send + Sync {
     fn digest(&self) -> Option<[u8; 32]>;
 }
 
-/// Who runs the functions of a dialect.
+/// The one who runs the functions of a dialect.
 #[derive(Clone, Debug)]
 pub struct FunctionHost(Arc<dyn RunFunctions>);
 

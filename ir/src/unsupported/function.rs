@@ -45,7 +45,7 @@ reasons! {
 }
 
 reasons! {
-    /// Why the answer of a user's program is refused.
+    /// Reasons for which the answer of a user's program is refused.
     #[derive(Clone, Debug, PartialEq, Eq)]
     pub enum FunctionFailure {
         /// The program cannot be started.
@@ -101,45 +101,45 @@ reasons! {
         },
         /// A canonical function that ncc does not take from a program.
         Function {
-            /// Which block, from 1.
+            /// The block, counted from 1.
             block: usize,
             /// The function.
             function: Box<str>,
         },
         /// A block that starts elsewhere than the one before it ends.
         Start {
-            /// Which block, from 1.
+            /// The block, counted from 1.
             block: usize,
             /// The axis.
             axis: char,
         },
         /// A block moves, and its function does not.
         Moves {
-            /// Which block, from 1.
+            /// The block, counted from 1.
             block: usize,
             /// The function.
             function: Box<str>,
         },
         /// A move at feed without a feed.
         NoFeed {
-            /// Which block, from 1.
+            /// The block, counted from 1.
             block: usize,
         },
         /// A parameter that is missing, or of another form.
         Parameter {
-            /// Which block, from 1.
+            /// The block, counted from 1.
             block: usize,
             /// The parameter.
             parameter: Box<str>,
         },
         /// An arc in another plane than the active one.
         Plane {
-            /// Which block, from 1.
+            /// The block, counted from 1.
             block: usize,
         },
         /// A number that is too large.
         TooLong {
-            /// Which block, from 1.
+            /// The block, counted from 1.
             block: usize,
         },
     }

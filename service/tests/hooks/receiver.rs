@@ -14,7 +14,7 @@ use rustls::{ServerConfig, ServerConnection, StreamOwned};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-/// How long a test waits for a message.
+/// Time for which a test waits for a message.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A reply to a message.

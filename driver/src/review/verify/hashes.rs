@@ -31,7 +31,7 @@ pub fn dictionaries(sides: &[Side; 2], hashes: &dyn Fn(&str) -> Vec<Hashed>) -> 
     all
 }
 
-/// What programs of the user were given for custom functions and have answered: a row for each dialect with such programs.
+/// Inputs and answers of the user's programs for custom functions: a row for each dialect with such programs.
 pub fn answers(sides: &[Side; 2]) -> Vec<Hashed> {
     let mut all: Vec<Hashed> = Vec::new();
     for dialect in sides.iter().map(Side::dialect) {

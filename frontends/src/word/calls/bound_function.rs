@@ -36,7 +36,7 @@ struct FunctionCode {
     span: Span,
 }
 
-/// What is active where a function is called.
+/// The modes at the call of a function.
 struct Surroundings {
     units: Units,
     plane: Plane,
@@ -244,7 +244,7 @@ impl Lower {
         Some(())
     }
 
-    /// Where the tool is at the call of a function.
+    /// The position of the tool at the call of a function.
     fn function_position(&mut self, at: Span, out: &mut Batch) -> Option<[Nanos; AXES]> {
         let known = self.functions.as_ref()?.tracker.position;
         let mut position = [0; AXES];
@@ -420,7 +420,7 @@ impl Lower {
         self.fault(Fault::not_supported(open.name, what), block.span, out);
     }
 
-    /// What is active at the call of a function; `None` is refused.
+    /// The modes at the call of a function; `None` is refused.
     fn surroundings(&mut self, open: &OpenFunction, out: &mut Batch) -> Option<Surroundings> {
         let needed = |fact| Fault::EntryFactNeeded { fact };
         let Fact::Known(units) = self.units(open.code, out) else {

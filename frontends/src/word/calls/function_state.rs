@@ -1,4 +1,4 @@
-//! What a reader keeps for custom functions of a user's program: where the tool is, and blocks that wait for their end.
+//! State of a reader for custom functions: the position of the tool, and blocks that wait for their end.
 //!
 //! Not here: what is done with it (`bound_function`).
 
@@ -11,14 +11,14 @@ use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-/// What a reader keeps for the functions of a dialect that has some.
+/// State of a reader for the functions of a dialect that has some.
 #[derive(Debug, Default)]
 pub(in crate::word) struct FunctionState {
     /// The state after the statements so far, of the program that is being read.
     pub(in crate::word) tracker: Tracker,
     /// The name of that program; `None` is the main program.
     pub(in crate::word) program: Option<Text>,
-    /// How many statements of it have been followed, of those that are there.
+    /// The number of its statements that have been followed.
     pub(in crate::word) seen: usize,
     /// Whether the last block was in a loop or a branch.
     pub(in crate::word) structured: bool,
@@ -35,14 +35,14 @@ pub(in crate::word) struct FunctionState {
 pub(in crate::word) struct OpenFunction {
     pub(in crate::word) name: &'static str,
     pub(in crate::word) row: &'static FunctionRow,
-    /// Where the function's code stands.
+    /// The place of the function's code.
     pub(in crate::word) code: Span,
     /// The number of its block.
     pub(in crate::word) number: Option<u32>,
     /// Its blocks so far, and where they stand.
     pub(in crate::word) blocks: Vec<GivenBlock>,
     pub(in crate::word) spans: Vec<Span>,
-    /// Where the axis words so far lead, from which increments count.
+    /// The end point of the axis words so far; increments count from it.
     pub(in crate::word) at: [Nanos; AXES],
     /// Whether one of its blocks was refused.
     pub(in crate::word) failed: bool,

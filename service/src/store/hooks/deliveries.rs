@@ -41,7 +41,7 @@ pub(crate) enum Attempt {
     Failed {
         /// The status of the answer; none without an answer.
         status: Option<u16>,
-        /// Why there is none; empty with an answer.
+        /// The reason for a missing answer; empty with an answer.
         reason: String,
         /// Seconds until the next attempt; none after the last one.
         pause: Option<i64>,
@@ -59,17 +59,17 @@ pub(crate) struct Delivery {
     pub(crate) event: String,
     /// The name of the translation or the job.
     pub(crate) subject: String,
-    /// When it has happened, seconds since 1970 (UTC).
+    /// Time of the event, seconds since 1970 (UTC).
     pub(crate) moment: i64,
     /// `waiting`, `sending`, `failed`, `delivered`, `given-up`.
     pub(crate) state: String,
     /// Attempts that have begun.
     pub(crate) attempts: i64,
-    /// When the next attempt may begin; none after the end.
+    /// Earliest time of the next attempt; none after the end.
     pub(crate) next: Option<i64>,
     /// Status of the last answer.
     pub(crate) status: Option<i64>,
-    /// Why there was no answer; empty with one.
+    /// The reason for a missing answer; empty with one.
     pub(crate) reason: String,
     /// When it has ended.
     pub(crate) ended: Option<i64>,

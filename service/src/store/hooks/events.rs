@@ -25,7 +25,7 @@ struct Event {
     subject: String,
     /// The folders of the programs that it is about.
     folders: Vec<String>,
-    /// What a receiver learns.
+    /// The data of the message.
     data: Value,
 }
 

@@ -71,7 +71,7 @@ pub(crate) struct Hook {
     pub(crate) folder: String,
     /// Its state.
     pub(crate) state: HookState,
-    /// Who has made it.
+    /// Its maker.
     pub(crate) author: String,
     /// When it was made, seconds since 1970 (UTC).
     pub(crate) made: i64,
