@@ -1,4 +1,4 @@
-//! Signatures of messages, by Standard Webhooks 1.0 (https://www.standardwebhooks.com): HMAC-SHA256 of `id.timestamp.body`.
+//! Signatures of messages, by Standard Webhooks 1.0 (<https://www.standardwebhooks.com>): HMAC-SHA256 of `id.timestamp.body`.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
