@@ -7,7 +7,7 @@ pub mod besides;
 pub mod corners;
 pub mod corpus;
 pub mod expect;
-pub mod interpreter;
+pub use ncc_interpreter as interpreter;
 pub mod page;
 pub mod plain;
 pub mod sketch;

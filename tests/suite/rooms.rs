@@ -23,6 +23,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("analysis/diff", &["ncc-exec", "ncc-ir"]),
     ("analysis/plot", &["ncc-exec", "ncc-ir", "ncc-time"]),
     ("analysis/simulate", &[]),
+    // It judges the compiler, so it knows nothing of it.
+    ("tests/interpreter", &[]),
     ("analysis/time", &["ncc-exec", "ncc-ir"]),
     (
         "driver",

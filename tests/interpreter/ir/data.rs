@@ -2,7 +2,7 @@
 
 use super::Control;
 use super::text::Token;
-use crate::interpreter::Halt;
+use crate::Halt;
 
 impl Control {
     pub(super) fn offset_data(&mut self, a: &[Token]) -> Result<(), Halt> {

@@ -1,7 +1,7 @@
 //! How LinuxCNC makes holes by its cycles: series of them, levels, taps.
 
 use super::{Control, Kept, Words};
-use crate::interpreter::{Halt, Per, Place, Spindle, What};
+use crate::{Halt, Per, Place, Spindle, What};
 
 impl Control {
     /// A block of a cycle: a hole, or several one step apart.

@@ -1,7 +1,7 @@
 //! How LinuxCNC reads points by distance and angle: `@` and `^`.
 
 use super::{Control, Words};
-use crate::interpreter::Halt;
+use crate::Halt;
 
 impl Control {
     /// Axis words with X and Y in place of @ and ^, distance and angle about the zero in force: as they are,

@@ -4,15 +4,10 @@
 //! 201-203: the tangent is that of the last block with a motion, and where it leads straight to the
 //! end point the block is a straight line.
 
-pub(in crate::interpreter) type Point = (f64, f64);
+pub(crate) type Point = (f64, f64);
 
 /// By radius: positive up to half a circle, negative beyond.
-pub(in crate::interpreter) fn by_radius(
-    from: Point,
-    to: Point,
-    r: f64,
-    clockwise: bool,
-) -> Result<Point, &'static str> {
+pub(crate) fn by_radius(from: Point, to: Point, r: f64, clockwise: bool) -> Result<Point, &'static str> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let chord = dx.hypot(dy);
     if chord < 1e-9 {
@@ -29,12 +24,7 @@ pub(in crate::interpreter) fn by_radius(
 }
 
 /// By opening angle, degrees, and end point.
-pub(in crate::interpreter) fn by_angle(
-    from: Point,
-    to: Point,
-    angle: f64,
-    clockwise: bool,
-) -> Result<Point, &'static str> {
+pub(crate) fn by_angle(from: Point, to: Point, angle: f64, clockwise: bool) -> Result<Point, &'static str> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     if dx.hypot(dy) < 1e-9 {
         return Err("AR= and the end point is the start");
@@ -46,14 +36,14 @@ pub(in crate::interpreter) fn by_angle(
 }
 
 /// The end of an arc of so many degrees.
-pub(in crate::interpreter) fn end_of(from: Point, centre: Point, angle: f64, clockwise: bool) -> Point {
+pub(crate) fn end_of(from: Point, centre: Point, angle: f64, clockwise: bool) -> Point {
     let (sin, cos) = (if clockwise { -angle } else { angle }).to_radians().sin_cos();
     let (x, y) = (from.0 - centre.0, from.1 - centre.1);
     (centre.0 + x * cos - y * sin, centre.1 + x * sin + y * cos)
 }
 
 /// Through a point on the way: the centre, and whether it goes clockwise. `None`: a straight line.
-pub(in crate::interpreter) fn by_three(from: Point, via: Point, to: Point) -> Option<(Point, bool)> {
+pub(crate) fn by_three(from: Point, via: Point, to: Point) -> Option<(Point, bool)> {
     let (ax, ay) = (via.0 - from.0, via.1 - from.1);
     let (bx, by) = (to.0 - from.0, to.1 - from.1);
     let cross = ax * by - ay * bx;
@@ -67,7 +57,7 @@ pub(in crate::interpreter) fn by_three(from: Point, via: Point, to: Point) -> Op
 
 /// By the direction at the start: the centre, and whether it goes clockwise. `None`: the end point
 /// lies on the line of that direction.
-pub(in crate::interpreter) fn by_tangent(from: Point, to: Point, direction: Point) -> Option<(Point, bool)> {
+pub(crate) fn by_tangent(from: Point, to: Point, direction: Point) -> Option<(Point, bool)> {
     let length = direction.0.hypot(direction.1);
     let left = (-direction.1 / length, direction.0 / length);
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
