@@ -27,7 +27,7 @@ export async function showRevisions(server: Server): Promise<void> {
   if (!project || !place) return;
   const list = el("ul", { id: "revisions-list" });
   const wrong = el("p", { class: "wrong", role: "alert" });
-  const more = el("button", { class: "more", hidden: true }, tell("more"));
+  const more = el("button", { class: "further", hidden: true }, tell("more"));
   const dialog = dialogOf("revisions-dialog", `${tell("revisions")}: ${project.name}`, list, more, wrong);
   const open = (revision: number) => {
     dialog.close();

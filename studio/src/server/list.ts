@@ -29,7 +29,7 @@ export class ServerList implements Section {
   private readonly told = el("p", { id: "server-list-told", role: "status" });
   private readonly importing = el("div", { id: "server-import" });
   private readonly list = el("ul", { id: "server-list" });
-  private readonly more = el("button", { type: "button", class: "more", hidden: true }, tell("more"));
+  private readonly more = el("button", { type: "button", class: "further", hidden: true }, tell("more"));
   private turn = 0;
   private timer = 0;
   private close: () => void = () => undefined;
