@@ -8,6 +8,7 @@ mod client;
 mod hooks;
 mod jobs;
 mod limits;
+mod machines;
 mod names;
 mod observe;
 mod outputs;

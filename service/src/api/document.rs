@@ -99,7 +99,7 @@ pub(super) fn changed(of: &Revision, place: Option<String>) -> Response {
 }
 
 /// The number of a revision in an address.
-pub(super) fn number(text: &str) -> Result<i64, Problem> {
+pub(crate) fn number(text: &str) -> Result<i64, Problem> {
     let number = text.parse().ok().filter(|number| *number > 0);
     number.ok_or_else(|| Problem::absent("revisions are counted from 1"))
 }

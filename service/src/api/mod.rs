@@ -45,7 +45,7 @@ use utoipa_axum::routes;
 use crate::Shared;
 
 pub(crate) use self::comparison::compare;
-pub(crate) use self::document::{fits, folder as folder_fits};
+pub(crate) use self::document::{fits, folder as folder_fits, number as revision_number};
 pub(crate) use self::programs::new_id;
 
 /// Addresses of programs, translations and jobs.

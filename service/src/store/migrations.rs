@@ -18,6 +18,7 @@ pub(super) const STEPS: &[&str] = &[
     include_str!("migrations/009-stale.sql"),
     include_str!("migrations/011-comparisons.sql"),
     include_str!("migrations/012-hooks.sql"),
+    include_str!("migrations/013-machine-revisions.sql"),
 ];
 
 /// The steps that are left, where so many have been taken.

@@ -46,7 +46,7 @@ pub(crate) use self::facts::{CALLS_ABSENT, Claimed, Computed, Term, calls};
 pub(crate) use self::hooks::{Attempt, Delivery, Due, EventKind, Hook, HookState};
 pub(crate) use self::jobs::{End, Job, Task, TaskResult};
 pub(crate) use self::logins::{LONGEST, Token};
-pub(crate) use self::machines::Machine;
+pub(crate) use self::machines::{Machine, MachineRevision};
 pub(crate) use self::programs::{Change, Details, Once, Revision, Said, Wanted};
 pub(crate) use self::search::{Found, Hit, OfProgram, Range, Shown, Sought};
 pub(crate) use self::states::{State, Step};

@@ -5,7 +5,12 @@
 //! GET    /api/v1/machines/NAME    a profile, as its owner wrote it
 //! PUT    /api/v1/machines/NAME    a profile (TOML), or the case study's machine.json
 //! DELETE /api/v1/machines/NAME
+//! GET    /api/v1/machines/NAME/revisions           its history ([`revisions`])
+//! GET    /api/v1/machines/NAME/revisions/N         the profile then
+//! POST   /api/v1/machines/NAME/revisions/N/restore
 //! ```
+
+mod revisions;
 
 use std::sync::Arc;
 
@@ -42,7 +47,12 @@ const LARGEST: usize = 1 << 20;
 
 /// Addresses of machines.
 pub(crate) fn routes() -> OpenApiRouter<Arc<Shared>> {
-    OpenApiRouter::new().routes(routes!(list)).routes(routes!(read, keep, delete))
+    OpenApiRouter::new()
+        .routes(routes!(list))
+        .routes(routes!(read, keep, delete))
+        .routes(routes!(revisions::list))
+        .routes(routes!(revisions::read))
+        .routes(routes!(revisions::restore))
 }
 
 /// A machine.
@@ -137,8 +147,30 @@ async fn read(
     if is_known(&headers, &tag) {
         return Ok(not_modified(tag));
     }
-    let media = if machine.text.trim_start().starts_with('{') { JSON } else { TOML };
-    Ok(([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], machine.text).into_response())
+    Ok(told(machine.text, tag))
+}
+
+/// The answer with a profile.
+fn told(text: String, tag: String) -> Response {
+    let media = if text.trim_start().starts_with('{') { JSON } else { TOML };
+    ([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], text).into_response()
+}
+
+/// Whether a text is a profile for a name.
+///
+/// # Errors
+/// It is none, of another name, or of a machine that comes with ncc.
+fn fits(name: &str, text: &str) -> Result<(), Problem> {
+    let read = profile(text);
+    let read = read.map_err(|wrong| Problem::faulty("the profile has errors", faults(&wrong, text)))?;
+    if read.id() != name {
+        return Err(Problem::content(format!("the profile is that of {:?}", read.id()))
+            .help("the address and the profile have one name"));
+    }
+    match ncc_machines::find(name) {
+        Some(_) => Err(Problem::exists(format!("`{name}` comes with ncc")).help("give yours another name")),
+        None => Ok(()),
+    }
 }
 
 /// Keeps a profile, or a machine.json of the case study.
@@ -169,15 +201,7 @@ async fn keep(
     }
     let text =
         String::from_utf8(body.to_vec()).map_err(|_| Problem::content("a profile is text in UTF-8"))?;
-    let read = profile(&text);
-    let read = read.map_err(|wrong| Problem::faulty("the profile has errors", faults(&wrong, &text)))?;
-    if read.id() != name {
-        return Err(Problem::content(format!("the profile is that of {:?}", read.id()))
-            .help("the address and the profile have one name"));
-    }
-    if ncc_machines::find(&name).is_some() {
-        return Err(Problem::exists(format!("`{name}` comes with ncc")).help("give yours another name"));
-    }
+    fits(&name, &text)?;
     let place = format!("/api/v1/machines/{}", encoded(&name));
     let (tag, is_new) =
         shared.store(&caller, move |store| Ok(store.keep_machine(&name, &text, &over)?)).await?;
