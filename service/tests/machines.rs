@@ -73,7 +73,7 @@ fn a_profile_is_restored() {
     assert_eq!(restore(2, &[]).status, 201);
     assert_eq!(server.get(PATH).text(), profile(2));
     assert_eq!(numbers(&server, "").len(), 5);
-    // What is so already needs no revision.
+    // A profile that is so already gets no further revision.
     assert_eq!(restore(2, &[]).status, 201);
     assert_eq!(numbers(&server, "").len(), 5);
 }
