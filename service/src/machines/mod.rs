@@ -156,7 +156,7 @@ fn told(text: String, tag: String) -> Response {
     ([(CONTENT_TYPE, media.to_owned()), (ETAG, tag)], text).into_response()
 }
 
-/// Whether a text is a profile for a name.
+/// Checks that a text is a profile for a name.
 ///
 /// # Errors
 /// It is none, of another name, or of a machine that comes with ncc.

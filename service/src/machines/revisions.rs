@@ -54,7 +54,7 @@ fn document(of: &MachineRevision) -> Revision {
 }
 
 /// The text of a revision that has one.
-fn text(of: MachineRevision) -> Result<(String, String), Problem> {
+fn text_of(of: MachineRevision) -> Result<(String, String), Problem> {
     match of.text {
         Some(text) => Ok((text, of.tag)),
         None => Err(Problem::absent("the machine was deleted in this revision")),
@@ -108,7 +108,7 @@ pub(super) async fn read(
     body::name(&name)?;
     let number = revision_number(&number)?;
     let found = shared.store(&caller, move |store| Ok(store.machine_revision(&name, number)?)).await?;
-    let (text, tag) = text(found)?;
+    let (text, tag) = text_of(found)?;
     let tag = etag(&tag, "");
     Ok(if is_known(&headers, &tag) { not_modified(tag) } else { told(text, tag) })
 }
@@ -136,7 +136,7 @@ pub(super) async fn restore(
     let place = format!("/api/v1/machines/{}", encoded(&name));
     let (tag, _) = shared
         .store(&caller, move |store| {
-            let (text, _) = text(store.machine_revision(&name, number)?)?;
+            let (text, _) = text_of(store.machine_revision(&name, number)?)?;
             // A later ncc may have another idea of profiles, or a machine of this name.
             fits(&name, &text)?;
             Ok(store.keep_machine(&name, &text, &over)?)

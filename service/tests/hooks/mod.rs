@@ -224,7 +224,7 @@ fn a_job_is_told_once_at_its_end() {
     );
     let over = server.get(&format!("/api/v1/jobs/{first}")).json();
     assert_eq!((&data["made"], &data["ended"]), (&over["made"], &over["ended"]));
-    // A job that has ended is not cancelled, and no hook is told again.
+    // A job that has ended cannot be cancelled: there is no second message.
     assert_eq!(server.delete(&format!("/api/v1/jobs/{first}")).status, 200);
     let endless = "%\nO1\nG21 G90 G54\n#1=0\nN10 #1=#1+1\nG0 X[#1 MOD 7]\nGOTO10\nM30\n%\n";
     for number in 1..=2 {
