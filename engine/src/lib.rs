@@ -16,6 +16,7 @@
 //! The codes are the exit codes of the command line. Not here: any work of the compiler (`ncc_driver`).
 
 mod colours;
+pub mod dialects;
 mod editing;
 #[expect(unsafe_code, reason = "memory crosses the C interface here, and nowhere else")]
 pub mod interface;
@@ -27,12 +28,13 @@ mod time;
 mod verbs;
 mod words;
 
-use std::collections::BTreeMap;
+use self::dialects::Dialects;
+use self::program::Files;
 
 /// Files by their names, and what the last request has made.
 #[derive(Debug, Default)]
 pub struct Engine {
-    files: BTreeMap<String, Vec<u8>>,
+    files: Files,
     outputs: Vec<(&'static str, Vec<u8>)>,
     /// The program that was cut last.
     kept: simulate::Kept,
@@ -41,7 +43,12 @@ pub struct Engine {
 impl Engine {
     /// Keeps a file, in the place of another of its name.
     pub fn put(&mut self, name: &str, bytes: Vec<u8>) {
-        self.files.insert(name.to_owned(), bytes);
+        self.files.put(name, bytes);
+    }
+
+    /// Makes dialects known to the requests from now on; without it, the built-in ones are.
+    pub fn know(&mut self, dialects: Dialects) {
+        self.files.dialects = dialects;
     }
 
     /// Does a request, which is JSON ([`request::Request`]); its outputs take the place of those of the one before. The
@@ -62,7 +69,7 @@ impl Engine {
         self.outputs.iter().map(|(name, bytes)| (*name, bytes.as_slice()))
     }
 
-    /// Lets go of all files and outputs.
+    /// Lets go of all files, dialects of a shop and outputs.
     pub fn clear(&mut self) {
         *self = Engine::default();
     }

@@ -26,20 +26,47 @@ use ncc_machines::{Fact, Profile, ProfileError};
 use ncc_time::{AssumedFact, Model};
 use toml::Spanned;
 
+use crate::dialects::Dialects;
 use crate::request::{self, One};
 
 /// Outputs by their names.
 pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
 
-/// Files by their names.
-pub(crate) type Files = BTreeMap<String, Vec<u8>>;
+/// Files by their names, and the dialects that are known.
+#[derive(Debug, Default)]
+pub(crate) struct Files {
+    all: BTreeMap<String, Vec<u8>>,
+    /// The built-in dialects, and those of a shop.
+    pub(crate) dialects: Dialects,
+}
+
+impl Files {
+    /// Keeps a file, in the place of another of its name.
+    pub(crate) fn put(&mut self, name: &str, bytes: Vec<u8>) {
+        self.all.insert(name.to_owned(), bytes);
+    }
+
+    /// The bytes of a file.
+    pub(crate) fn get(&self, name: &str) -> Option<&Vec<u8>> {
+        self.all.get(name)
+    }
+
+    /// A dialect by its name; of no name and of `auto`, none.
+    pub(crate) fn named(&self, id: Option<&str>) -> Result<Option<&'static Dialect>, Problem> {
+        let dialect = |id: &str| {
+            let none = || RequestFault::NoDialect(id.to_owned(), self.dialects.ids().collect()).into();
+            self.dialects.get(id).ok_or_else(none)
+        };
+        id.filter(|id| *id != "auto").map(dialect).transpose()
+    }
+}
 
 /// Called programs among the files of an engine, all in one folder.
 pub(crate) struct InMemory<'f>(pub(crate) &'f Files);
 
 impl Library for InMemory<'_> {
     fn list(&self, _folder: &Path) -> Vec<PathBuf> {
-        self.0.keys().map(PathBuf::from).collect()
+        self.0.all.keys().map(PathBuf::from).collect()
     }
 
     fn bytes(&self, path: &Path) -> Option<u64> {
@@ -74,7 +101,7 @@ pub(crate) fn profile(name: Option<&str>, files: &Files) -> Result<Option<Arc<Pr
         return Ok(Some(Arc::new(profile.clone())));
     }
     let text = file_text(name, files).ok_or_else(|| RequestFault::NoMachine(name.to_owned()))?;
-    parsed(name, Profile::parse(text, &ncc_dialects::builtin)).map(Some)
+    parsed(name, Profile::parse(text, &|id| files.dialects.get(id))).map(Some)
 }
 
 fn file_text<'f>(name: &str, files: &'f Files) -> Option<&'f str> {
@@ -99,7 +126,7 @@ pub(crate) fn machine_for_times(one: &One, files: &Files) -> Result<Option<Arc<P
 pub(crate) fn row(project: Option<&str>, file: &str, files: &Files) -> Result<Option<Programs>, Problem> {
     let Some(name) = project else { return Ok(None) };
     let text = files.get(name).ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
-    project_file::row(&String::from_utf8_lossy(text), file)
+    project_file::row(&String::from_utf8_lossy(text), file, &|id| files.dialects.get(id))
 }
 
 /// Whether a file is at hand: a host puts an empty one in the place of one that is gone.
@@ -148,7 +175,7 @@ pub(crate) fn machine(
         Some(MachineRef::Named(name)) => profile(Some(name.get_ref()), files)?,
         Some(MachineRef::Inline(profile, _)) => Some(Arc::new(Profile::clone(profile))),
     };
-    let dialect = named(dialect)?;
+    let dialect = files.named(dialect)?;
     Ok(own.filter(|own| dialect.is_none_or(|dialect| dialect.id == own.dialect.id)))
 }
 
@@ -178,24 +205,16 @@ fn put_zero(schema: &mut Schema, number: u32, zero: [f64; 3]) {
     [row.x, row.y, row.z] = zero.map(fact);
 }
 
-/// A dialect by its name; of no name and of `auto`, none.
-pub(crate) fn named(id: Option<&str>) -> Result<Option<&'static Dialect>, Problem> {
-    let dialect = |id: &str| {
-        let none = || RequestFault::NoDialect(id.to_owned(), ncc_dialects::builtin_ids().collect()).into();
-        ncc_dialects::builtin(id).ok_or_else(none)
-    };
-    id.filter(|id| *id != "auto").map(dialect).transpose()
-}
-
 /// The dialect of a source, with what was chosen of it; and others that explain it as well.
 pub(crate) fn settings(
     source: &mut Source,
+    files: &Files,
     from: Option<&str>,
     machines: &Machines,
     options: &BTreeMap<String, String>,
     units: Option<request::Units>,
 ) -> Result<(Settings, Vec<&'static Dialect>), Problem> {
-    let own = named(from)?.or(machines.from.as_ref().map(|profile| profile.dialect));
+    let own = files.named(from)?.or(machines.from.as_ref().map(|profile| profile.dialect));
     let (dialect, rivals) = match own {
         Some(dialect) => (dialect, Vec::new()),
         None => {
@@ -244,7 +263,7 @@ pub(crate) fn side_on(
 
 /// The text of a program alone, whatever it calls: for who changes it.
 pub(crate) fn side_alone(one: &One, files: &Files, messages: &mut Buffer) -> Result<Side, Problem> {
-    side_with(one, machine_of(one, files)?, [files, &Files::new()], messages)
+    side_with(one, machine_of(one, files)?, [files, &Files::default()], messages)
 }
 
 fn side_with(
@@ -258,7 +277,8 @@ fn side_with(
     tell_absent(one.machine.as_deref(), stated.as_ref(), files, messages)?;
     let profile = machine.filter(|machine| !machine.any_control);
     let machines = Machines { from: profile.clone(), to: profile };
-    let (from, rivals) = settings(&mut source, one.from.as_deref(), &machines, &one.from_option, one.units)?;
+    let (from, rivals) =
+        settings(&mut source, files, one.from.as_deref(), &machines, &one.from_option, one.units)?;
     // What a profile states of its control holds for programs in that control's language.
     let own = machines.from.as_ref().is_some_and(|profile| profile.dialect.id == from.dialect.id);
     load_subprograms(&mut source, &from, &[PathBuf::new()], &InMemory(called))?;

@@ -14,7 +14,7 @@ use ncc_machines::table::Tell;
 use serde_json::{Value, json};
 use toml::Spanned;
 
-use crate::program::{Files, Outputs, is_given, named, open, profile, row, settings};
+use crate::program::{Files, Outputs, is_given, open, profile, row, settings};
 use crate::request::{Project, Stated};
 
 /// Writes the answers for a program, and its set-up, into a project file.
@@ -30,7 +30,7 @@ pub(crate) fn project(
         let mut source = open(&asked.file, false, files, messages)?;
         let machines = Machines { from: profile(asked.machine_from.as_deref(), files)?, to: None };
         let (settings, rivals) =
-            settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, None)?;
+            settings(&mut source, files, asked.from.as_deref(), &machines, &asked.from_option, None)?;
         if !rivals.is_empty() {
             return Err(project_file::undecided(&asked.file));
         }
@@ -43,7 +43,7 @@ pub(crate) fn project(
         machine: asked.machine_from.as_deref(),
         options: &asked.from_option,
     });
-    let dialect = named(to[0].as_deref())?.map_or("", |dialect| dialect.id.as_str());
+    let dialect = files.named(to[0].as_deref())?.map_or("", |dialect| dialect.id.as_str());
     let to = project_file::Side { dialect, machine: asked.machine_to.as_deref(), options: &asked.to_option };
     let to = Some(&to).filter(|to| !to.dialect.is_empty() || to.machine.is_some());
     let set_up = SetUp {
@@ -52,7 +52,8 @@ pub(crate) fn project(
         table: asked.table.as_ref().map(|table| table.first().copied()),
         tools: &asked.tools,
     };
-    let written = project_file::answered(&text, &asked.file, from.as_ref(), to, &set_up)?;
+    let written =
+        project_file::answered(&text, &asked.file, from.as_ref(), to, &set_up, &|id| files.dialects.get(id))?;
     Ok((Exit::Done, vec![("output", written.into_bytes())]))
 }
 

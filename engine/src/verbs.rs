@@ -21,7 +21,7 @@ use ncc_driver::render::{Loudness, human};
 use ncc_driver::review::diff::tell::Account;
 use ncc_driver::review::diff::{json, motion};
 use ncc_driver::review::stream::Course;
-use ncc_driver::review::verify::document::{Call, Document, Hashed, Word};
+use ncc_driver::review::verify::document::{Call, Document, Word};
 use ncc_driver::review::verify::hashes;
 use ncc_driver::review::verify::pair;
 use ncc_driver::side::Side;
@@ -35,8 +35,7 @@ use ncc_machines::reading::Side as Whose;
 use crate::colours;
 use crate::editing;
 use crate::program::{
-    Files, InMemory, Outputs, machine, machine_of, named, open, pairs, row, settings, side, stands,
-    tell_absent,
+    Files, InMemory, Outputs, machine, machine_of, open, pairs, row, settings, side, stands, tell_absent,
 };
 use crate::project;
 use crate::request::{Colours, Explain, One, Request, Translate, Two, Words};
@@ -79,7 +78,7 @@ fn verb(
         },
         Request::Colours(asked) => coloured(asked, files),
         Request::Words(Words { dialect }) => {
-            let dialect = named(Some(dialect))?.ok_or(RequestFault::NoTarget)?;
+            let dialect = files.named(Some(dialect))?.ok_or(RequestFault::NoTarget)?;
             let document = serde_json::to_vec(&words::document(dialect)).unwrap_or_default();
             Ok((Exit::Done, vec![("document", document)]))
         }
@@ -108,23 +107,14 @@ fn verb(
         #[cfg(not(target_arch = "wasm32"))]
         Request::Sheet(asked) => time::drawn::sheet(asked, files, messages),
         Request::Dialects(_) => {
-            let all: Vec<_> = ncc_dialects::builtins()
+            let all: Vec<_> = files
+                .dialects
+                .all()
                 .map(|dialect| serde_json::json!({ "id": dialect.id, "title": dialect.title }))
                 .collect();
             Ok((Exit::Done, vec![("document", serde_json::to_vec_pretty(&all).unwrap_or_default())]))
         }
     }
-}
-
-/// Hashes of the texts that a dialect is made of: its own, then its base's and so on.
-fn hashes_of(id: &str) -> Vec<Hashed> {
-    let mut all = Vec::new();
-    let mut next = ncc_dialects::builtin(id);
-    while let Some(dialect) = next {
-        all.extend(hashes::built_in(&dialect.id));
-        next = dialect.base.as_deref().and_then(ncc_dialects::builtin);
-    }
-    all
 }
 
 fn verdicts(names: &[String]) -> Result<Vec<Verdict>, Problem> {
@@ -147,11 +137,11 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
         from: machine(asked.machine_from.as_deref(), asked.from.as_deref(), from.as_ref(), files)?,
         to: machine(asked.machine_to.as_deref(), asked.to.as_deref(), to.as_ref(), files)?,
     };
-    let to = named(asked.to.as_deref())?.or(machines.to.as_ref().map(|profile| profile.dialect));
+    let to = files.named(asked.to.as_deref())?.or(machines.to.as_ref().map(|profile| profile.dialect));
     let to = to.ok_or(RequestFault::NoTarget)?;
     let to = choose(machines.settings(Whose::To, to), &pairs(&asked.to_option))?;
     let (from, rivals) =
-        settings(&mut source, asked.from.as_deref(), &machines, &asked.from_option, asked.units)?;
+        settings(&mut source, files, asked.from.as_deref(), &machines, &asked.from_option, asked.units)?;
     let crlf = source.is_crlf()?;
     load_subprograms(&mut source, &from, &[PathBuf::new()], &InMemory(files))?;
     let (mut given, mut values) = (InitialVariables::default(), Vec::new());
@@ -207,7 +197,7 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
 fn coloured(asked: &Colours, files: &Files) -> Result<(Exit, Outputs), Problem> {
     let cannot = |e: io::Error| Problem::file("read", &asked.file, &e);
     let mut source = open(&asked.file, true, files, &mut Buffer::no_color())?;
-    let dialect = match named(asked.from.as_deref())? {
+    let dialect = match files.named(asked.from.as_deref())? {
         Some(dialect) => dialect,
         None => {
             let all: Vec<_> = ncc_dialects::builtins().collect();
@@ -291,7 +281,7 @@ fn verified(two: &Two, files: &Files, messages: &mut Buffer) -> Result<(Exit, Ou
         files: [two.a.file.clone(), two.b.file.clone()],
         machines: machines.map(|name| name.map(str::to_owned)),
         tolerance,
-        dictionaries: hashes::dictionaries(&sides, &hashes_of),
+        dictionaries: hashes::dictionaries(&sides, &|id| files.dialects.hashes(id)),
         profiles: hashes::profiles(machines, &sides, &read).map_err(cannot)?,
     };
     let document = Document::of(&found, &mut sides, &call).map_err(cannot)?;

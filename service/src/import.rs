@@ -7,13 +7,15 @@ use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::sync::Arc;
 
+use ncc_dialects::Dialect;
 use sha2::{Digest, Sha256};
 
 use crate::Limits;
 use crate::api::{fits, new_id};
 use crate::http::Problem;
 use crate::rights::Who;
-use crate::store::{Condition, Details, Place, Receiving, Revision, Said, Store, StoreError, hex};
+use crate::shop::named;
+use crate::store::{Condition, Details, Place, Receiving, Revision, Said, Sort, Store, StoreError, hex};
 
 /// Bytes of a text that are read at once.
 const READ: usize = 1 << 16;
@@ -98,11 +100,22 @@ impl Import {
         if ncc_machines::find(name).is_some() {
             return Ok(true);
         }
-        match self.store.machine(name) {
+        match self.store.shop_text(Sort::Machine, name) {
             Ok(_) => Ok(true),
             Err(StoreError::Absent) => Ok(false),
             Err(error) => Err(error.to_string()),
         }
+    }
+
+    /// The dialect of a name, one of ncc's or of the database.
+    ///
+    /// # Errors
+    /// There is none, or the database; in words, with what to do.
+    pub fn dialect(&self, name: &str) -> Result<Option<&'static Dialect>, (String, String)> {
+        let told = |problem: Problem| {
+            (problem.detail().to_owned(), problem.first_help().unwrap_or_default().to_owned())
+        };
+        named(&self.store, name).map_err(told)
     }
 
     /// Puts a program in. Dialect and machine are those of a new one; another one keeps its own.
@@ -119,6 +132,7 @@ impl Import {
         };
         let refused = |problem: Problem| NotImported::Refused(problem.detail().to_owned());
         fits(&details).map_err(refused)?;
+        named(&self.store, entry.dialect).map_err(refused)?;
         if let Some(there) = self.store.program_at(entry.folder, entry.name)? {
             return self.change(&there, text);
         }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `/transpiler`, `/persistence`, `/output` | the services of the case study |
 //! | `/api/v1/programs`, `/api/v1/translations` | programs, their revisions, their translations |
-//! | `/api/v1/machines` | profiles of machines |
+//! | `/api/v1/machines`, `/api/v1/dialects` | texts of the shop: profiles of its machines, dictionaries of its dialects |
 //! | `/api/v1/jobs`, `/api/v1/search` | many programs translated, and found by what they do |
 //! | `/api/v1/hooks` | addresses that are told of releases, stale translations and ended jobs |
 //! | `/api/v1/session`, `/accounts`, `/tokens`, `/audit` | users, and what they did |
@@ -28,11 +28,11 @@ mod facts;
 mod hooks;
 mod http;
 mod import;
-mod machines;
 mod moments;
 mod observe;
 mod rights;
 mod settings;
+mod shop;
 mod store;
 mod studio;
 mod translating;
@@ -349,7 +349,7 @@ impl Service {
                 case_study::transpiler()
                     .merge(case_study::persistence())
                     .merge(case_study::output())
-                    .merge(machines::routes())
+                    .merge(shop::routes())
                     .merge(api::routes())
                     .merge(hooks::routes())
                     .merge(access::routes())
@@ -357,7 +357,7 @@ impl Service {
                 None,
             ),
             Part::Persistence { .. } => {
-                (case_study::persistence().merge(machines::routes()).merge(access::routes()), None)
+                (case_study::persistence().merge(shop::routes()).merge(access::routes()), None)
             }
             Part::Transpiler { persistence } => (case_study::transpiler(), Some(persistence)),
             Part::Output { persistence } => (case_study::output(), Some(persistence)),

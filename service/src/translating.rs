@@ -6,8 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use ncc_driver::review::verify::hashes::built_in;
 use ncc_engine::Engine;
+use ncc_engine::dialects::Dialects;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use utoipa::ToSchema;
@@ -15,7 +15,8 @@ use utoipa::ToSchema;
 use crate::compiler::{self, DONE, put_machine, refusal};
 use crate::http::Problem;
 use crate::rights::Act;
-use crate::store::{Outcome, Revision, State, Store, StoreError, Translation, Wanted, digest};
+use crate::shop::{dialects, dictionary};
+use crate::store::{Outcome, Revision, Sort, State, Store, StoreError, Translation, Wanted, digest};
 
 /// Bytes of the programs of a folder that are looked through for called ones, at most.
 const FOLDER: u64 = 64 << 20;
@@ -70,7 +71,7 @@ pub(crate) struct Inputs {
     machine_from: Option<String>,
     /// Of the profile of the machine to translate for.
     machine_to: Option<String>,
-    /// Of the dictionaries of both dialects: none of a dialect that is recognised.
+    /// Of the dictionaries of both dialects: none of a dialect that is recognised, nor of a built-in one that a machine names.
     dialects: [Option<String>; 2],
     /// The version of ncc.
     ncc: String,
@@ -84,6 +85,7 @@ struct Ready {
     of: Revision,
     text: Vec<u8>,
     profiles: BTreeMap<String, String>,
+    dialects: Dialects,
     inputs: Inputs,
     key: String,
 }
@@ -100,7 +102,7 @@ pub(crate) fn profile(store: &Store, name: &str) -> Result<(Option<String>, Stri
     if let Some(text) = ncc_machines::shipped_text(name) {
         return Ok((None, digest(&[text.as_bytes()])));
     }
-    match store.machine(name) {
+    match store.shop_text(Sort::Machine, name) {
         Ok(machine) => Ok((Some(machine.text), machine.tag)),
         Err(StoreError::Absent) => {
             Err(Problem::request(format!("there is no machine `{name}`"))
@@ -108,17 +110,6 @@ pub(crate) fn profile(store: &Store, name: &str) -> Result<(Option<String>, Stri
         }
         Err(error) => Err(error.into()),
     }
-}
-
-/// A digest of the dictionary of a dialect, with its base dictionaries.
-pub(crate) fn dictionary(id: &str) -> Option<String> {
-    let mut hashes = Vec::new();
-    let mut next = Some(ncc_dialects::builtin(id)?);
-    while let Some(dialect) = next {
-        hashes.extend(built_in(&dialect.id).map(|text| text.sha256));
-        next = dialect.base.as_deref().and_then(ncc_dialects::builtin);
-    }
-    Some(digest(&hashes.iter().map(String::as_bytes).collect::<Vec<_>>()))
 }
 
 /// Gathers what goes in.
@@ -143,18 +134,24 @@ fn ready(store: &Store, mut asked: Asked) -> Result<Ready, Problem> {
             }
         });
     }
+    let dialects = dialects(store)?;
+    let dictionaries =
+        [(&asked.from, &asked.machine_from), (&asked.to, &asked.machine_to)].map(|(id, machine)| {
+            let own = machine.as_ref().and_then(|name| profiles.get(name));
+            dictionary(&dialects, id.as_deref(), own.map(String::as_str))
+        });
     let inputs = Inputs {
         program: of.content.sha256.clone(),
         machine_to: digests.pop().flatten(),
         machine_from: digests.pop().flatten(),
-        dialects: [&asked.from, &asked.to].map(|id| id.as_deref().and_then(dictionary)),
+        dialects: dictionaries,
         ncc: env!("CARGO_PKG_VERSION").to_owned(),
         called: BTreeMap::new(),
     };
     // The same of another revision with the same text.
     let stated = json!([{ "name": of.details.name }, Asked { revision: None, ..asked.clone() }, inputs]);
     let key = digest(&[stated.to_string().as_bytes()]);
-    Ok(Ready { asked, of, text, profiles, inputs, key })
+    Ok(Ready { asked, of, text, profiles, dialects, inputs, key })
 }
 
 /// Programs in the folder of a program, as they are now, but for itself.
@@ -208,20 +205,24 @@ pub(crate) fn stale(store: &Store, of: &Translation) -> Result<Vec<&'static str>
     let (before, asked) = (inputs(of)?, asked(of)?);
     let head = store.program(&of.program)?;
     let machine = |name: &Option<String>| match name {
-        None => Ok(None),
+        None => Ok((None, None)),
         Some(name) => match profile(store, name) {
-            Ok((_, digest)) => Ok(Some(digest)),
+            Ok((text, digest)) => Ok((text, Some(digest))),
             // It has been deleted since.
-            Err(problem) if problem.is_request() => Ok(None),
+            Err(problem) if problem.is_request() => Ok((None, None)),
             Err(problem) => Err(problem),
         },
     };
-    let dialects = [&asked.from, &asked.to].map(|id| id.as_deref().and_then(dictionary));
+    let (own_from, machine_from) = machine(&asked.machine_from)?;
+    let (own_to, machine_to) = machine(&asked.machine_to)?;
+    let now = dialects(store)?;
+    let dialects = [(&asked.from, own_from), (&asked.to, own_to)]
+        .map(|(id, own)| dictionary(&now, id.as_deref(), own.as_deref()));
     let then = store.revision(&of.program, of.revision)?;
     let changed = [
         ("program", head.content.sha256 != before.program),
-        ("machine_from", machine(&asked.machine_from)? != before.machine_from),
-        ("machine_to", machine(&asked.machine_to)? != before.machine_to),
+        ("machine_from", machine_from != before.machine_from),
+        ("machine_to", machine_to != before.machine_to),
         ("dialect", dialects != before.dialects),
         ("ncc", before.ncc != env!("CARGO_PKG_VERSION")),
         ("called programs", !calls_the_same(store, &then, &before.called)?),
@@ -277,6 +278,7 @@ fn target(asked: &Asked) -> String {
 /// An engine with the program and the profiles of both machines, and the names of both machines there.
 fn engine(ready: &Ready) -> (Engine, [Option<String>; 2]) {
     let mut engine = Engine::default();
+    engine.know(ready.dialects.clone());
     engine.put(&ready.of.details.name, ready.text.clone());
     let machines = [&ready.asked.machine_from, &ready.asked.machine_to].map(|name| {
         let name = name.as_ref()?;

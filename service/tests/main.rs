@@ -5,6 +5,7 @@ mod attacks;
 mod backup;
 mod book;
 mod client;
+mod dialects;
 mod hooks;
 mod jobs;
 mod limits;

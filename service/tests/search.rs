@@ -31,7 +31,7 @@ fn found(server: &Server, query: &str) -> Vec<String> {
     programs.iter().map(|of| of["name"].as_str().expect("a name").to_owned()).collect()
 }
 
-fn facts(server: &Server, id: &str) -> Value {
+pub(crate) fn facts(server: &Server, id: &str) -> Value {
     settled(server);
     server.get(&format!("/api/v1/programs/{id}/facts")).json()
 }

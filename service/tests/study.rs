@@ -183,23 +183,3 @@ fn the_assumptions_of_the_times_are_reported() {
         made["assumed"].as_array().expect("a list").iter().filter_map(|line| line.as_str()).collect();
     assert!(assumed.contains(&"rapid rate = 30000 mm/min"), "{assumed:?}");
 }
-
-/// A custom function of a user's dictionary (`function_dict`) is the command line's: the service knows no such dictionary,
-/// and starts no program.
-#[test]
-fn custom_functions_are_refused() {
-    let server = Server::all();
-    let text = b"G21 G90 G17 G94 G54\nG00 X0. Y0. Z5.\nG200 X10.\nM30\n";
-    let unknown = server.ask("POST", "/transpiler/part.nc?dialect=shop", &[], text);
-    assert_eq!(unknown.status, 400, "{}", unknown.text());
-    assert!(unknown.text().contains("shop"), "{}", unknown.text());
-    let refused = server.ask("POST", "/transpiler/part.nc?dialect=fanuc", &[], text);
-    assert_eq!(refused.status, 422, "{}", refused.text());
-    assert!(refused.text().contains("NC0201"), "{}", refused.text());
-    // A dictionary as the program, or beside it, changes nothing.
-    let dictionary = b"id = \"shop\"\ntitle = \"\"\nbase = \"fanuc\"\n[functions.G200]\ncommand = [\"touch\", \"started\"]\n";
-    let sent = server.ask("POST", "/transpiler/shop.toml?dialect=fanuc", &[], dictionary);
-    assert_eq!(sent.status, 422, "{}", sent.text());
-    let again = server.ask("POST", "/transpiler/part.nc?dialect=shop", &[], text);
-    assert_eq!(again.status, 400, "{}", again.text());
-}

@@ -12,17 +12,14 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::{fs, io};
 
-use codespan_reporting::diagnostic::{Diagnostic, Label};
-use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::termcolor::WriteColor;
-use codespan_reporting::term::{self, Config};
 use ncc_dialects::{
     Dialect, DialectError, DialectFault, ElsewhereRow, FunctionHost, Place, Text, builtin, builtin_ids,
-    builtin_text, builtins, load,
+    builtins, load,
 };
 use ncc_driver::functions::Functions;
 use ncc_driver::problem::{Exit, Problem};
-use ncc_driver::render::dictionary::{BaseRow, Words, words};
+use ncc_driver::render::dictionary::fault::{Fault, boxed, fault};
 use ncc_driver::review::verify::document::Hashed;
 use ncc_driver::review::verify::hashes::{built_in, hashed};
 use ncc_ir::canon::Units;
@@ -366,73 +363,15 @@ fn report_fault(
     out: Option<&mut dyn WriteColor>,
 ) -> Problem {
     let silent = Problem { exit: Exit::Usage, message: String::new(), help: Vec::new() };
-    let words = worded(error, names, texts);
-    if let (Some(out), Some(place)) = (out, &error.place)
-        && boxed(error, place, &words, names, texts, out).is_ok()
+    if let Some(out) = out
+        && boxed(error, names, texts, out).is_ok_and(|has_place| has_place)
     {
         return silent;
     }
-    let at = error.place.as_ref().map(|place| {
-        let (name, text) = file(place.text, names, texts);
-        let before = text.get(..place.span.start).unwrap_or_default();
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-        format!("{name}:{line}:{column}: ")
-    });
-    let inherited = error.inherited_by.as_ref().map(|place| file(place.text, names, texts).0);
-    let inherited = inherited.map(|name| format!(" (the base of {name})")).unwrap_or_default();
-    let message = format!("{}{}{inherited}", at.unwrap_or_default(), words.headline);
-    Problem { message, help: words.helps, ..silent }
-}
-
-fn file<'t>(which: Text, names: &[String], texts: &[&'t str]) -> (String, &'t str) {
-    match which {
-        Text::File(at) => (names.get(at).cloned().unwrap_or_default(), texts.get(at).copied().unwrap_or("")),
-        Text::BuiltIn(at) => {
-            builtin_text(at).map_or((String::new(), ""), |(id, text)| (format!("{id} (built in)"), text))
-        }
-    }
-}
-
-fn boxed(
-    error: &DialectError,
-    place: &Place,
-    words: &Words,
-    names: &[String],
-    texts: &[&str],
-    out: &mut dyn WriteColor,
-) -> io::Result<()> {
-    let mut files = SimpleFiles::new();
-    let mut label = |place: &Place, primary: bool| {
-        let (name, text) = file(place.text, names, texts);
-        let at = files.add(name, text);
-        match primary {
-            true => Label::primary(at, place.span.clone()),
-            false => Label::secondary(at, place.span.clone()).with_message("this base is meant"),
-        }
-    };
-    let labels: Vec<_> = std::iter::once(label(place, true))
-        .chain(error.inherited_by.iter().map(|place| label(place, false)))
-        .collect();
-    let diagnostic = Diagnostic::error()
-        .with_message(&words.headline)
-        .with_labels(labels)
-        .with_notes(words.helps.iter().map(|line| format!("help: {line}")).collect());
-    term::emit_to_write_style(out, &Config::default(), &files, &diagnostic).map_err(io::Error::other)
-}
-
-/// The words about a fault. In a row of the base, they name that row.
-fn worded(error: &DialectError, names: &[String], texts: &[&str]) -> Words {
-    let place = error.place.as_ref().filter(|_| error.inherited_by.is_some());
-    let base_row = place.and_then(|place| {
-        let (_, text) = file(place.text, names, texts);
-        let (before, at) = (text.get(..place.span.start)?, text.get(place.span.clone())?);
-        let table = before.get(before.rfind("[[")? + 2..)?.split("]]").next()?;
-        let line = before.rsplit('\n').next()?;
-        Some((table.to_owned(), format!("{line}{at}")))
-    });
-    let base_row = base_row.as_ref().map(|(table, key)| BaseRow { table, key });
-    words(&error.fault, base_row)
+    let Fault { place, inherited_by, words } = fault(error, names, texts);
+    let at = place.map(|(name, line, column)| format!("{name}:{line}:{column}: ")).unwrap_or_default();
+    let inherited = inherited_by.map(|name| format!(" (the base of {name})")).unwrap_or_default();
+    Problem { message: format!("{at}{}{inherited}", words.headline), help: words.helps, ..silent }
 }
 
 #[cfg(test)]

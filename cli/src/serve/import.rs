@@ -75,16 +75,13 @@ pub(super) fn run(args: &Import, err: &mut dyn WriteColor) -> Result<Exit, Probl
     if !args.folder.is_dir() {
         return Err(Problem::usage(format!("{shown} is no folder"), "name the folder of the programs"));
     }
-    let dialects: Vec<_> = ncc_dialects::builtins().collect();
-    if let Some(id) = args.from.as_deref().filter(|id| ncc_dialects::builtin(id).is_none()) {
-        let all: Vec<&str> = dialects.iter().map(|dialect| dialect.id.as_str()).collect();
-        return Err(Problem::usage(
-            format!("there is no dialect `{id}`"),
-            format!("one of: {}", all.join(", ")),
-        ));
-    }
     let import = ncc_service::Import::open(&args.database.place()?, &author(args.author.as_deref()));
     let import = import.map_err(|why| unusable(&why))?;
+    let stated = import.dialect(args.from.as_deref().unwrap_or_default());
+    let dialects = match stated.map_err(|(what, help)| Problem::usage(what, help))? {
+        Some(dialect) => vec![dialect],
+        None => ncc_dialects::builtins().collect(),
+    };
     if let Some(name) = &args.machine
         && !import.has_machine(name).map_err(|why| unusable(&why))?
     {
@@ -93,8 +90,7 @@ pub(super) fn run(args: &Import, err: &mut dyn WriteColor) -> Result<Exit, Probl
             "put its profile in first: PUT /api/v1/machines/NAME; `ncc machines` lists those that come with ncc",
         ));
     }
-    let of_source = |own: &&&ncc_dialects::Dialect| args.from.as_ref().is_none_or(|id| own.id == *id);
-    let extensions = dialects.iter().filter(of_source).flat_map(|own| &own.extensions);
+    let extensions = dialects.iter().flat_map(|own| &own.extensions);
     let extensions: BTreeSet<String> = extensions.map(|extension| extension.to_lowercase()).collect();
     let found = gather(std::slice::from_ref(&args.folder), &extensions, None);
     let mut account = Account { counts: [0; 3], unsure: 0, left_out: Vec::new(), exit: Exit::Done };

@@ -40,6 +40,7 @@ dictionary-name = row { $row }: never read: this control has no words of several
     .help = only dialects on siemens read [[name]] and [[call]]; a code is a row of [[code]]
 dictionary-form = { $fault }
     .help = `ncc dialects schema` lists the tables and their fields
+dictionary-this-base = this base is meant
 dictionary-base-no-text = `base` is not a text
     .help = write the name of a dialect: `base = "fanuc"`
 dictionary-missing = a dictionary states its own `{ $field }`

@@ -14,12 +14,16 @@
 
 use std::collections::BTreeMap;
 
+use ncc_dialects::Dialect;
 use ncc_machines::project::{NAME, Programs, Project};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
 use crate::problem::{Exit, Problem, problem};
 use crate::simulate::described::Shaped;
 use crate::simulate::tooling;
+
+/// Finds a dialect by its name.
+pub type Known<'k> = &'k dyn Fn(&str) -> Option<&'static Dialect>;
 
 /// What is answered of one side.
 #[derive(Clone, Copy, Debug)]
@@ -73,9 +77,9 @@ fn pattern(program: &str) -> String {
 ///
 /// # Errors
 /// The file has faults, or two of its rows are about the program.
-pub fn row(text: &str, program: &str) -> Result<Option<Programs>, Problem> {
+pub fn row(text: &str, program: &str, known: Known<'_>) -> Result<Option<Programs>, Problem> {
     let faulty = || refused("project-faulty", program);
-    let mut project = Project::parse(text, &ncc_dialects::builtin).map_err(|_| faulty())?;
+    let mut project = Project::parse(text, known).map_err(|_| faulty())?;
     Ok(project.row(program).map_err(|_| faulty())?.map(|at| project.rows.swap_remove(at)))
 }
 
@@ -90,13 +94,14 @@ pub fn answered(
     from: Option<&Side>,
     to: Option<&Side>,
     set_up: &SetUp,
+    known: Known<'_>,
 ) -> Result<String, Problem> {
     let faulty = || refused("project-faulty", program);
     let mut document: DocumentMut = text.parse().map_err(|_| faulty())?;
     let at = match text.trim().is_empty() {
         true => None,
         false => {
-            let project = Project::parse(text, &ncc_dialects::builtin).map_err(|_| faulty())?;
+            let project = Project::parse(text, known).map_err(|_| faulty())?;
             project.row(program).map_err(|_| faulty())?
         }
     };
@@ -125,7 +130,7 @@ pub fn answered(
     }
     let written = with_endings_of(text, &document.to_string());
     // It says of the program what it should, and is sound.
-    match Project::parse(&written, &ncc_dialects::builtin).map(|project| project.row(program)) {
+    match Project::parse(&written, known).map(|project| project.row(program)) {
         Ok(Ok(Some(_))) => Ok(written),
         Ok(_) | Err(_) => Err(faulty()),
     }
@@ -292,6 +297,8 @@ fn put_tools(row: &mut Table, tools: &[String]) -> Result<(), ()> {
 
 #[cfg(test)]
 mod tests {
+    use ncc_dialects::builtin;
+
     use super::*;
 
     fn written(text: &str, chosen: &[(&str, &str)]) -> Result<String, Problem> {
@@ -300,12 +307,12 @@ mod tests {
             chosen.iter().map(|(name, own)| ((*name).to_owned(), (*own).to_owned())).collect();
         let from = Side { dialect: "fanuc", machine: None, options: &options };
         let to = Side { dialect: "siemens", machine: None, options: &none };
-        answered(text, "part.nc", Some(&from), Some(&to), &SetUp::default())
+        answered(text, "part.nc", Some(&from), Some(&to), &SetUp::default(), &builtin)
     }
 
     /// Of no side, with a set-up.
     fn set_up(text: &str, set_up: &SetUp) -> Result<String, Problem> {
-        answered(text, "part.nc", None, None, set_up)
+        answered(text, "part.nc", None, None, set_up, &builtin)
     }
 
     const ROW: &str = "[[programs]]\nfiles = \"part.nc\"\n\n[programs.machine]\ndialect = \"fanuc\"\n\
@@ -348,11 +355,11 @@ mod tests {
             "[[programs]]\nfiles = \"part.nc\"\nstock = \"X0:10 Y0:10 Z-5:0\"\nfixtures = [\"D20 X5 Y5 Z0:10\"]\n\
              table = -20.5\n"
         );
-        let own = row(&text, "part.nc").expect("sound").expect("a row");
+        let own = row(&text, "part.nc", &builtin).expect("sound").expect("a row");
         assert_eq!(own.table.map(toml::Spanned::into_inner), Some(-20.5));
         let none = SetUp { stock: Some(""), fixtures: Some(&[]), table: Some(None), tools: &[] };
         assert_eq!(set_up(&text, &none).as_deref(), Ok("[[programs]]\nfiles = \"part.nc\"\n"));
-        assert!(row(&text, "other.nc").is_ok_and(|row| row.is_none()));
+        assert!(row(&text, "other.nc", &builtin).is_ok_and(|row| row.is_none()));
     }
 
     #[test]
@@ -388,7 +395,7 @@ mod tests {
     fn a_machine_that_is_stated_is_not_dropped_for_a_name() {
         let none = BTreeMap::new();
         let named = Side { dialect: "haas", machine: Some("haas-vf2"), options: &none };
-        let put = |text: &str| answered(text, "part.nc", Some(&named), None, &SetUp::default());
+        let put = |text: &str| answered(text, "part.nc", Some(&named), None, &SetUp::default(), &builtin);
         let told = |text: &str| put(text).map_err(|problem| problem.message);
         let tool = "\n[[programs.machine.tool]]\nnumber = 1\nshape = \"ball\"\ndiameter = 8.0\n";
         let refused = refused("project-machine-stated", "part.nc").message;

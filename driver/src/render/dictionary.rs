@@ -4,7 +4,9 @@
 //! means = "FLOD_ON"    no meaning: FLOD_ON    did you mean `FLOOD_ON`?
 //! ```
 //!
-//! Not here: the place in the file, which the command line shows.
+//! Not here: the place in the file ([`fault`]).
+
+pub mod fault;
 
 use ncc_dialects::{DialectFault, UnknownKind, UnknownWord, Unreadable, builtin_ids, near};
 

@@ -44,7 +44,7 @@ pub use cycles::*;
 pub use fault::{DialectError, DialectFault, Place, RowFault, Text, Unreadable};
 pub use formula::{FormulaRules, FunctionName, Operator, RemainderRule, Statement};
 pub use functions::{FunctionAnswer, FunctionCall, FunctionHost, FunctionRow, GivenBlock, RunFunctions};
-pub use load::{builtin, builtin_ids, builtin_sha256, builtin_text, builtins, load, parse, renew};
+pub use load::{builtin, builtin_ids, builtin_sha256, builtin_text, builtins, load, load_one, parse, renew};
 pub use meaning::{Meaning, Thread};
 pub use names::*;
 pub use power_on::*;

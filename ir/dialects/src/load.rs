@@ -96,18 +96,39 @@ pub fn parse(text: &str) -> Result<Dialect, DialectError> {
 /// itself, or its rows contradict each other.
 pub fn load(texts: &[&str]) -> Result<Vec<Dialect>, DialectError> {
     let texts = Texts::new(texts);
-    let ids: Vec<(String, Place)> =
-        (0..texts.files.len()).map(|i| texts.id(Text::File(i))).collect::<Result<_, _>>()?;
+    let all = 0..texts.files.len();
+    let ids: Vec<(String, Place)> = all.clone().map(|i| texts.id(Text::File(i))).collect::<Result<_, _>>()?;
     for (at, (id, place)) in ids.iter().enumerate() {
-        let fault = match id {
-            id if !is_id(id) => DialectFault::BadId { id: id.clone() },
-            id if builtin_ids().any(|b| b == id) => DialectFault::BuiltInId { id: id.clone() },
-            id if ids[..at].iter().any(|(other, _)| other == id) => DialectFault::IdTwice { id: id.clone() },
-            _ => continue,
-        };
-        return Err(fault.at(Some(place.clone())));
+        fits(id, place, ids[..at].iter().map(|(other, _)| other.as_str()))?;
     }
-    (0..texts.files.len()).map(|i| texts.dialect(Text::File(i))).collect()
+    all.map(|i| texts.dialect(Text::File(i))).collect()
+}
+
+/// Reads one dictionary of a shop, the text of this place among all of them; faults of those on which it does not build are
+/// passed over.
+///
+/// # Errors
+/// As of [`load`]. Of two texts with one name, the later one is at fault.
+pub fn load_one(texts: &[&str], at: usize) -> Result<Dialect, DialectError> {
+    let texts = Texts::new(texts);
+    let (id, place) = texts.id(Text::File(at))?;
+    let before: Vec<String> = (0..at).filter_map(|i| Some(texts.id(Text::File(i)).ok()?.0)).collect();
+    fits(&id, &place, before.iter().map(String::as_str))?;
+    texts.dialect(Text::File(at))
+}
+
+/// Whether a dictionary may have this name, where others have theirs.
+fn fits<'n>(id: &str, place: &Place, mut others: impl Iterator<Item = &'n str>) -> Result<(), DialectError> {
+    let fault = if !is_id(id) {
+        DialectFault::BadId { id: id.to_owned() }
+    } else if builtin_ids().any(|b| b == id) {
+        DialectFault::BuiltInId { id: id.to_owned() }
+    } else if others.any(|other| other == id) {
+        DialectFault::IdTwice { id: id.to_owned() }
+    } else {
+        return Ok(());
+    };
+    Err(fault.at(Some(place.clone())))
 }
 
 /// Whether a word can name a dialect.

@@ -23,6 +23,7 @@ use crate::access::Caller;
 use crate::compiler::{DONE, REFUSED, refusal};
 use crate::http::Problem;
 use crate::http::query::Query;
+use crate::shop::dialects;
 use crate::store::{Revision, Store};
 use crate::translating::run_with_called;
 
@@ -89,6 +90,7 @@ fn compare_as(
     tolerance: Option<&str>,
 ) -> Result<[Vec<u8>; 2], Problem> {
     let mut engine = Engine::default();
+    engine.know(dialects(store)?);
     let is_one = sides[0].program == sides[1].program;
     let mut fields = Vec::new();
     for (side, of) in ["a", "b"].into_iter().zip(&sides) {

@@ -142,22 +142,11 @@ pub(super) fn details(query: &mut Query) -> Result<Details, Problem> {
     Ok(details)
 }
 
-/// Place, dialect and machine of a program are such as a program may have.
+/// Place and machine of a program are such as a program may have. Its dialect is one of its shop, `crate::shop`.
 pub(crate) fn fits(details: &Details) -> Result<(), Problem> {
     body::name(&details.name)?;
     folder(&details.folder)?;
-    dialect(&details.dialect)?;
     machine(&details.machine)
-}
-
-/// A name of a dialect, or an empty one.
-pub(super) fn dialect(name: &str) -> Result<(), Problem> {
-    if name.is_empty() || ncc_dialects::builtin(name).is_some() {
-        return Ok(());
-    }
-    let all: Vec<_> = ncc_dialects::builtin_ids().collect();
-    Err(Problem::request(format!("there is no dialect `{name}`"))
-        .help(format!("there are: {}", all.join(", "))))
 }
 
 /// A name that a machine may have, or an empty one. It may be put in later.

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use crate::compiler::put_machine;
 use crate::http::Problem;
 use crate::http::query::Query;
+use crate::shop::dialects;
 use crate::store::{Revision, Store};
 use crate::translating::{profile, run_with_called};
 
@@ -102,6 +103,7 @@ impl Ready<'_> {
     /// Reads the text of a program into an engine.
     pub(super) fn of(store: &Store, found: Found) -> Result<Ready<'_>, Problem> {
         let mut engine = Engine::default();
+        engine.know(dialects(store)?);
         let text = store.whole(&found.of.content)?;
         let common = found.put(&mut engine, &found.of.details.name, text);
         Ok(Ready { store, found, engine, common })

@@ -10,9 +10,7 @@ use axum::response::Response;
 use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
-use super::document::{
-    Program, changed, details, dialect, document, folder, machine, message_fits, said, tags, told,
-};
+use super::document::{Program, changed, details, document, folder, machine, message_fits, said, tags, told};
 use super::texts::receive;
 use crate::Shared;
 use crate::access::Caller;
@@ -21,6 +19,7 @@ use crate::http::conditions::expected;
 use crate::http::query::Query;
 use crate::http::{self, Problem};
 use crate::rights::Act;
+use crate::shop::named;
 use crate::store::{Details, Once, Said, Wanted, digest};
 
 /// Group of the addresses in the description.
@@ -71,6 +70,8 @@ pub(super) async fn create(
     caller.may_in(Act::Change, &details.folder)?;
     let said = said(&mut query, caller.name())?;
     query.end("name, folder, dialect, machine, tag, message")?;
+    let dialect = details.dialect.clone();
+    shared.store(&caller, move |store| named(store, &dialect)).await?;
     let text = receive(&shared, &caller, &headers, body).await?;
     let id = new_id()?;
     let made = shared
@@ -191,7 +192,6 @@ impl Patch {
         patch.name.as_deref().map_or(Ok(""), body::name)?;
         let text = |field: &Option<Option<String>>| field.clone().flatten().unwrap_or_default();
         folder(&text(&patch.folder))?;
-        dialect(&text(&patch.dialect))?;
         machine(&text(&patch.machine))?;
         patch.tags = patch.tags.map(|own| own.map(tags).transpose()).transpose()?;
         Ok(patch)
@@ -238,6 +238,7 @@ pub(super) async fn change(
     let said = Said { author: caller.name().to_owned(), message: std::mem::take(&mut patch.message) };
     let made = shared
         .store(&caller, move |store| {
+            named(store, &patch.dialect.clone().flatten().unwrap_or_default())?;
             Ok(store.change_details(&id, |details| patch.put(details), &said, &over)?)
         })
         .await?;
@@ -294,9 +295,7 @@ mod tests {
             after(r#"{"folder": "x/y", "name": "o", "dialect": "haas"}"#),
             Details { folder: "x/y".into(), name: "o".into(), dialect: "haas".into(), ..before() }
         );
-        for wrong in
-            ["", "[]", r#"{"name": ""}"#, r#"{"folder": "/a"}"#, r#"{"dialect": "x"}"#, r#"{"nam": "a"}"#]
-        {
+        for wrong in ["", "[]", r#"{"name": ""}"#, r#"{"folder": "/a"}"#, r#"{"nam": "a"}"#] {
             assert!(Patch::read(wrong.as_bytes()).is_err(), "{wrong}");
         }
     }

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 
 use ncc_driver::time::payload::{self, Document};
 use ncc_engine::Engine;
+use ncc_engine::dialects::Dialects;
 use ncc_machines::Profile;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -21,7 +22,7 @@ use utoipa::ToSchema;
 use crate::compiler::{self, DONE, put_machine, refusal};
 use crate::http::Problem;
 use crate::http::body::NAME;
-use crate::machines::profile;
+use crate::shop::profile;
 use crate::store::Parts;
 
 /// The payload before processing.
@@ -108,7 +109,7 @@ pub(crate) fn of_payload(text: &[u8], name: &str) -> Result<(Parts, [String; 2])
 }
 
 /// Settings for the processing of a program.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Setting {
     /// The name of its dialect; none is recognised.
     pub(crate) dialect: Option<String>,
@@ -116,6 +117,8 @@ pub(crate) struct Setting {
     pub(crate) machine: Option<String>,
     /// The machine's profile, where it is not one that comes with ncc.
     pub(crate) profile: Option<String>,
+    /// Dialects that its dialect and its profile are looked for among.
+    pub(crate) dialects: Dialects,
     /// Choices where the dictionary leaves a question open.
     pub(crate) options: BTreeMap<String, String>,
     /// Position of the tool before the first block, program coordinates: `X-9,Y15.588,Z3`.
@@ -184,6 +187,7 @@ struct Stamp {
 /// The program is refused, or what it is processed with.
 pub(crate) fn process(name: &str, program: &[u8], setting: &Setting, most: u64) -> Result<Made, Problem> {
     let mut engine = Engine::default();
+    engine.know(setting.dialects.clone());
     engine.put(name, program.to_vec());
     let profile = setting.profile.as_deref();
     let machine = setting.machine.as_ref().map(|name| put_machine(&mut engine, name, profile));
@@ -251,7 +255,7 @@ fn canonical(
     // What a profile states of its control holds for programs in that control's language alone.
     let is_own = |profile: &Profile| !profile.any_control && profile.dialect.id == dialect;
     let names_control = match (&setting.profile, &setting.machine) {
-        (Some(text), _) => profile(text).is_ok_and(|own| is_own(&own)),
+        (Some(text), _) => profile(text, &setting.dialects).is_ok_and(|own| is_own(&own)),
         (None, Some(name)) => ncc_machines::find(name).is_some_and(is_own),
         (None, None) => false,
     };

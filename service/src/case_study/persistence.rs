@@ -16,7 +16,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::document::{self, AFTER, BEFORE, CMF, CMF_REFUSED, WHOLE_MEDIA, Whole};
-use super::shelf::{Found, whole};
+use super::shelf::{Found, Shelf, whole};
 use crate::Shared;
 use crate::access::Caller;
 use crate::http::body::{self, Name, encoded};
@@ -217,7 +217,7 @@ pub(super) async fn read_in(
     }
     let body = match form {
         Form::Stored => payload_of(found)?.1,
-        _ => shared.work(caller, move |_| rewritten(&name, found, form)).await?,
+        _ => shared.work(caller, move |shelf| rewritten(shelf, &name, found, form)).await?,
     };
     Ok(([(CONTENT_TYPE, "application/json".to_owned()), (ETAG, tag)], body).into_response())
 }
@@ -231,8 +231,11 @@ fn payload_of(mut found: Found) -> Result<(String, Vec<u8>), Problem> {
 }
 
 /// The payload in another form than it was put in.
-fn rewritten(name: &str, found: Found, form: Form) -> Result<Vec<u8>, Problem> {
-    let dialect = ncc_dialects::builtin(&found.dialect);
+fn rewritten(shelf: &Shelf, name: &str, found: Found, form: Form) -> Result<Vec<u8>, Problem> {
+    let dialect = match ncc_dialects::builtin(&found.dialect) {
+        None => shelf.dialects()?.get(&found.dialect),
+        built_in => built_in,
+    };
     let (machine, text) = payload_of(found)?;
     let document = document::read(&text, name)?;
     let (fields, machine_name) = match form {

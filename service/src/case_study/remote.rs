@@ -12,7 +12,7 @@ use super::document::{WHOLE_MEDIA, Whole};
 use crate::http::Problem;
 use crate::http::body::encoded;
 use crate::http::conditions::etag;
-use crate::store::{Condition, Listed, Machine};
+use crate::store::{Condition, Listed, ShopText};
 
 /// Time limit of an answer.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -137,11 +137,32 @@ impl Remote {
         Ok(Remote::json::<List>(&answer)?.documents)
     }
 
-    pub(super) fn machine(&self, name: &str) -> Result<Machine, Problem> {
-        let answer =
-            self.ask("GET", &format!("/api/v1/machines/{}", encoded(name)), &Condition::Any, None)?;
-        let no_text = |_| Problem::other_service("PERSISTENCE: a profile is no text");
+    pub(super) fn machine(&self, name: &str) -> Result<ShopText, Problem> {
+        self.text("machines", name)
+    }
+
+    /// All dictionaries that do not come with ncc.
+    pub(super) fn dialects(&self) -> Result<Vec<ShopText>, Problem> {
+        #[derive(Deserialize)]
+        struct One {
+            name: String,
+            ships_with_ncc: bool,
+        }
+        #[derive(Deserialize)]
+        struct List {
+            dialects: Vec<One>,
+        }
+        let answer = self.ask("GET", "/api/v1/dialects", &Condition::Any, None)?;
+        let list: List = Remote::json(&answer)?;
+        let own = list.dialects.iter().filter(|one| !one.ships_with_ncc);
+        own.map(|one| self.text("dialects", &one.name)).collect()
+    }
+
+    /// A text of the shop.
+    fn text(&self, sort: &str, name: &str) -> Result<ShopText, Problem> {
+        let answer = self.ask("GET", &format!("/api/v1/{sort}/{}", encoded(name)), &Condition::Any, None)?;
+        let no_text = |_| Problem::other_service("PERSISTENCE: a profile or a dictionary is no text");
         let text = String::from_utf8(answer.body).map_err(no_text)?;
-        Ok(Machine { name: name.to_owned(), text, tag: answer.tag })
+        Ok(ShopText { name: name.to_owned(), text, tag: answer.tag })
     }
 }

@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
+use ncc_engine::dialects::Dialects;
+
 use super::Remote;
 use super::document::Whole;
 use crate::access::Caller;
 use crate::http::Problem;
-use crate::store::{Condition, Listed, Machine, Parts, Store};
+use crate::shop::of_texts;
+use crate::store::{Condition, Listed, Parts, ShopText, Sort, Store};
 
 /// The place of documents.
 #[derive(Clone)]
@@ -101,11 +104,19 @@ impl Shelf {
     }
 
     /// The profile of a machine.
-    pub(crate) fn machine(&self, name: &str) -> Result<Machine, Problem> {
+    pub(crate) fn machine(&self, name: &str) -> Result<ShopText, Problem> {
         match self {
-            Shelf::Here(store) => Ok(store.machine(name)?),
+            Shelf::Here(store) => Ok(store.shop_text(Sort::Machine, name)?),
             Shelf::There(remote) => remote.machine(name),
         }
+    }
+
+    /// The built-in dialects, and those of the shop.
+    pub(crate) fn dialects(&self) -> Result<Dialects, Problem> {
+        Ok(of_texts(match self {
+            Shelf::Here(store) => store.shop_texts(Sort::Dialect)?,
+            Shelf::There(remote) => remote.dialects()?,
+        }))
     }
 }
 

@@ -11,6 +11,7 @@ use axum::extract::{RawQuery, State};
 use axum::http::header::{ETAG, LOCATION};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
+use ncc_engine::dialects::Dialects;
 
 use super::document::{Account, Setting, Whole, process};
 use super::persistence::{self, Documents, Form, read_in};
@@ -71,6 +72,7 @@ fn stated(query: Option<&str>) -> Result<Setting, Problem> {
         dialect: query.one("dialect")?,
         machine: query.one("machine")?,
         profile: None,
+        dialects: Dialects::default(),
         options: query.pairs("option")?,
         start: query.one("start")?,
         start_time,
@@ -83,17 +85,21 @@ fn stated(query: Option<&str>) -> Result<Setting, Problem> {
     Ok(setting)
 }
 
-/// Fetches the machine's profile, where it is not one that comes with ncc.
-fn with_profile(setting: &mut Setting, shelf: &Shelf) -> Result<(), Problem> {
-    let Some(name) = setting.machine.as_deref().filter(|name| ncc_machines::find(name).is_none()) else {
-        return Ok(());
-    };
+/// Fetches what does not come with ncc: the machine's profile, and the shop's dialects where the dialect is none of ncc's, or the
+/// profile may name one of them.
+fn with_shop(setting: &mut Setting, shelf: &Shelf) -> Result<(), Problem> {
+    let is_own = |id: &String| id != "auto" && ncc_dialects::builtin(id).is_none();
+    let machine = setting.machine.clone().filter(|name| ncc_machines::find(name).is_none());
+    if machine.is_some() || setting.dialect.as_ref().is_some_and(is_own) {
+        setting.dialects = shelf.dialects()?;
+    }
+    let Some(name) = machine else { return Ok(()) };
     let absent = |problem: Problem| match problem.is_absent() {
         true => Problem::request(format!("there is no machine `{name}`"))
             .help("GET /api/v1/machines lists them; PUT /api/v1/machines/NAME keeps another one"),
         false => problem,
     };
-    setting.profile = Some(shelf.machine(name).map_err(absent)?.text);
+    setting.profile = Some(shelf.machine(&name).map_err(absent)?.text);
     Ok(())
 }
 
@@ -139,7 +145,7 @@ pub(super) async fn create(
     let most = shared.largest;
     let (tag, account) = shared
         .work(&caller, move |shelf| {
-            with_profile(&mut setting, shelf)?;
+            with_shop(&mut setting, shelf)?;
             let made = process(&name, &program, &setting, most)?;
             Ok((shelf.create(&name, &made.of, made.parts)?, made.account))
         })
@@ -189,7 +195,7 @@ pub(super) async fn update(
             if setting.machine.is_none() {
                 setting.machine = Some(there.machine).filter(|machine| !machine.is_empty());
             }
-            with_profile(&mut setting, shelf)?;
+            with_shop(&mut setting, shelf)?;
             let made = process(&name, &program, &setting, most)?;
             Ok((shelf.replace(&name, &made.of, made.parts, &over)?, made.account))
         })

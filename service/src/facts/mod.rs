@@ -19,14 +19,16 @@ use ncc_dialects::Dialect;
 use ncc_driver::guess::recognise;
 use ncc_driver::source::Source;
 use ncc_engine::Engine;
+use ncc_engine::dialects::Dialects;
 use ncc_exec::halt;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::compiler::{self, DONE, put_machine};
 use crate::http::Problem;
+use crate::shop::{self, dictionary, stated_dialect};
 use crate::store::{CALLS_ABSENT, Claimed, Computed, Revision, Store, Term, calls};
-use crate::translating::{NOT_THERE, calls_the_same, dictionary, profile, run_with_called, stale};
+use crate::translating::{NOT_THERE, calls_the_same, profile, run_with_called, stale};
 
 pub(crate) use self::line::{duration, line};
 use self::words::Words;
@@ -116,24 +118,27 @@ fn compute(store: &Store, claimed: &Claimed, limit: Duration) -> Result<Option<C
         },
     };
     let there = machine.as_ref().and_then(|machine| machine.as_ref().ok());
+    let dialects = shop::dialects(store)?;
+    let stated = Some(of.details.dialect.as_str()).filter(|dialect| !dialect.is_empty());
+    let own = there.and_then(|machine| machine.text.as_deref());
     let mut inputs = Inputs {
         program: of.content.sha256.clone(),
         dialect: of.details.dialect.clone(),
         machine: of.details.machine.clone(),
         profile: there.map(|machine| machine.digest.clone()),
-        dictionary: dictionary(&of.details.dialect),
+        dictionary: dictionary(&dialects, stated, own),
         ncc: env!("CARGO_PKG_VERSION").to_owned(),
         called: BTreeMap::new(),
         is_absent: false,
     };
-    let dialect = dialect_of(&of, there, &text);
+    let dialect = dialect_of(&of, &dialects, stated, there, &text);
     let words = Words::of(&text, dialect);
     let mut executed = match still_holding(store, &of, claimed, &mut inputs)? {
         Some(executed) => executed,
         None => match machine.transpose() {
             Err(no_machine) => refused(None, no_machine),
             Ok(_) if !claimed.may_run => refused(None, "ncc ended while it executed the program".to_owned()),
-            Ok(machine) => execute(store, &of, text, machine, &mut inputs, limit)?,
+            Ok(machine) => execute(store, &of, (text, dialects), machine, &mut inputs, limit)?,
         },
     };
     executed.insert("dialect".to_owned(), json!(dialect.map(|dialect| &dialect.id)));
@@ -163,15 +168,18 @@ fn extents(document: &Value) -> Option<[[i64; 2]; 3]> {
 }
 
 /// The dialect that the program is executed in: the one that is stated, that of its machine, or the one that is recognised.
-fn dialect_of(of: &Revision, machine: Option<&Machine>, text: &[u8]) -> Option<&'static Dialect> {
-    if let Some(dialect) = ncc_dialects::builtin(&of.details.dialect) {
+fn dialect_of(
+    of: &Revision,
+    dialects: &Dialects,
+    stated: Option<&str>,
+    machine: Option<&Machine>,
+    text: &[u8],
+) -> Option<&'static Dialect> {
+    if let Some(dialect) = stated.and_then(|id| dialects.get(id)) {
         return Some(dialect);
     }
     let shipped = ncc_machines::find(&of.details.machine).map(|profile| profile.dialect);
-    let own = || {
-        let profile = crate::machines::profile(machine?.text.as_deref()?).ok()?;
-        Some(profile.dialect).filter(|_| !profile.any_control)
-    };
+    let own = || stated_dialect(dialects, None, Some(machine?.text.as_deref()?));
     let recognised = || {
         let all: Vec<_> = ncc_dialects::builtins().collect();
         let beginning = &text[..text.len().min(BEGINNING)];
@@ -210,12 +218,13 @@ fn refused(code: Option<&str>, reason: String) -> Map<String, Value> {
 fn execute(
     store: &Store,
     of: &Revision,
-    text: Vec<u8>,
+    (text, dialects): (Vec<u8>, Dialects),
     machine: Option<Machine>,
     inputs: &mut Inputs,
     limit: Duration,
 ) -> Result<Map<String, Value>, Problem> {
     let mut engine = Engine::default();
+    engine.know(dialects);
     let name = machine.map(|own| put_machine(&mut engine, &of.details.machine, own.text.as_deref()));
     engine.put(&of.details.name, text);
     let stated = Some(&of.details.dialect).filter(|dialect| !dialect.is_empty());

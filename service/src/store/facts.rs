@@ -239,15 +239,17 @@ fn callers_wait(to: &dyn Session, folder: &str, name: &str) -> Result<(), StoreE
     Ok(())
 }
 
-/// Has programs wait that are for a machine, or have been translated from it or for it.
-pub(super) fn machine_changed(to: &dyn Session, machine: &str) -> Result<(), StoreError> {
-    // As the requests of translations are stored.
-    let stated = serde_json::Value::from(machine).to_string();
+/// Has programs wait that are for a machine or in a dialect, or have been translated from it or for it; and those whose facts
+/// are computed right now, as these do not say yet what goes in.
+pub(super) fn shop_changed(to: &dyn Session, name: &str) -> Result<(), StoreError> {
+    // As facts have what went in, and translations what was asked for.
+    let stated = serde_json::Value::from(name).to_string();
     let signs = stated.replace('!', "!!").replace('%', "!%").replace('_', "!_");
     to.change(
         "UPDATE fact SET turn = turn + 1, since = CASE WHEN done < turn THEN since ELSE $3 END
-         WHERE machine = $1 OR program IN (SELECT program FROM translation WHERE asked LIKE CAST($2 AS TEXT) ESCAPE '!')",
-        values![machine, format!("%\":{signs}%"), now()],
+         WHERE machine = $1 OR done < turn AND worker <> '' OR inputs LIKE CAST($2 AS TEXT) ESCAPE '!'
+         OR program IN (SELECT program FROM translation WHERE asked LIKE CAST($2 AS TEXT) ESCAPE '!')",
+        values![name, format!("%\":{signs}%"), now()],
     )?;
     Ok(())
 }

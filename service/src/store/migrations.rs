@@ -19,6 +19,7 @@ pub(super) const STEPS: &[&str] = &[
     include_str!("migrations/011-comparisons.sql"),
     include_str!("migrations/012-hooks.sql"),
     include_str!("migrations/013-machine-revisions.sql"),
+    include_str!("migrations/014-dialects.sql"),
 ];
 
 /// The steps that are left, where so many have been taken.

@@ -1,7 +1,7 @@
 //! The data of the service, in a database.
 //!
 //! `database` is the one way to it, an SQLite file (`sqlite`) or a PostgreSQL server (`postgres`) under one `session`;
-//! `documents`, `machines`, `programs` and their `contents` are what is kept, `facts` what programs do, `comparisons` what
+//! `documents`, `programs`, texts of the `shop` and their `contents` are what is kept, `facts` what programs do, `comparisons` what
 //! revisions changed, `search` finds them, `hooks` tell others of them,
 //! and `backup` copies all of it. Every change is one transaction: it is there as a whole, or not at all. Not here: what a
 //! document says, and HTTP.
@@ -17,12 +17,12 @@ mod facts;
 mod hooks;
 mod jobs;
 mod logins;
-mod machines;
 mod migrations;
 mod postgres;
 mod programs;
 mod search;
 mod session;
+mod shop;
 mod sqlite;
 mod states;
 mod translations;
@@ -46,9 +46,9 @@ pub(crate) use self::facts::{CALLS_ABSENT, Claimed, Computed, Term, calls};
 pub(crate) use self::hooks::{Attempt, Delivery, Due, EventKind, Hook, HookState};
 pub(crate) use self::jobs::{End, Job, Task, TaskResult};
 pub(crate) use self::logins::{LONGEST, Token};
-pub(crate) use self::machines::{Machine, MachineRevision};
 pub(crate) use self::programs::{Change, Details, Once, Revision, Said, Wanted};
 pub(crate) use self::search::{Found, Hit, OfProgram, Range, Shown, Sought};
+pub(crate) use self::shop::{ShopRevision, ShopText, Sort};
 pub(crate) use self::states::{State, Step};
 pub(crate) use self::translations::{Outcome, Translation};
 

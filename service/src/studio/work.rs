@@ -17,6 +17,7 @@ use crate::access::Caller;
 use crate::http::query::Query;
 use crate::http::{Problem, body};
 use crate::rights::Act;
+use crate::shop::dialects;
 use crate::translating::callable;
 
 /// Cells along the longer side of a part at most: with both maps of the part, 32 MB.
@@ -143,7 +144,9 @@ pub(super) async fn run(
     let request = bounded(body::json(&headers, request)?, shared.rooms.moves())?;
     shared.guard.takes_work(&caller)?;
     shared.guard.takes_work(&caller)?;
+    let dialects = shared.store(&caller, |store| Ok(dialects(store)?)).await?;
     let mut inside = Arc::clone(&room.inside).lock_owned().await;
+    inside.engine.know(dialects);
     let counts = Arc::clone(&shared);
     let work = move || {
         let answer = ncc_studio::answer(&mut inside.engine, &request);

@@ -31,6 +31,7 @@ struct Row {
 enum Body {
     None,
     Program,
+    Dictionary,
     Json(fn(&Things) -> Value),
 }
 
@@ -64,6 +65,11 @@ fn payload(own: &Things) -> Value {
 /// A payload in the place of the document that was made.
 fn payload_over(own: &Things) -> Value {
     named_payload(&format!("{}-d", own.name))
+}
+
+/// A dictionary that adds nothing to its base.
+fn dictionary(name: &str) -> String {
+    format!("id = {name:?}\ntitle = \"\"\nbase = \"fanuc\"\n")
 }
 
 fn named_payload(name: &str) -> Value {
@@ -145,6 +151,13 @@ fn others() -> Vec<Row> {
         row("GET", "/api/v1/machines/{machine}/revisions", "", "reader", 200, 404),
         row("GET", "/api/v1/machines/{machine}/revisions/1", "", "reader", 200, 404),
         row("POST", "/api/v1/machines/{machine}/revisions/1/restore", "", "admin", 201, 403),
+        row("GET", "/api/v1/dialects", "", "none", 200, 0),
+        row("GET", "/api/v1/dialects/shop", "", "reader", 200, 404),
+        with(row("PUT", "/api/v1/dialects/{name}", "", "admin", 201, 403), Body::Dictionary),
+        row("DELETE", "/api/v1/dialects/{dialect}", "", "admin", 204, 403),
+        row("GET", "/api/v1/dialects/{dialect}/revisions", "", "reader", 200, 404),
+        row("GET", "/api/v1/dialects/{dialect}/revisions/1", "", "reader", 200, 404),
+        row("POST", "/api/v1/dialects/{dialect}/revisions/1/restore", "", "admin", 201, 403),
         row("GET", "/transpiler", "", "none", 200, 0),
         row("GET", "/persistence", "", "none", 200, 0),
         with(row("POST", "/transpiler/{name}", "?dialect=mach9", "editor", 201, 404), Body::Program),
@@ -248,6 +261,12 @@ fn callers(server: &Server, root: &User) -> Vec<Caller> {
     all
 }
 
+fn put_dialect(server: &Server, root: &User, name: &str) {
+    let target = format!("/api/v1/dialects/{name}");
+    let made = root.send(server, "PUT", &target, Some("application/toml"), dictionary(name).as_bytes());
+    assert_eq!(made.status, 201, "{}", made.text());
+}
+
 /// Makes what a row needs, and its address.
 fn prepared(server: &Server, root: &User, row: &Row, name: &str) -> (String, Things) {
     let needs = |word: &str| row.path.contains(word);
@@ -284,6 +303,9 @@ fn prepared(server: &Server, root: &User, row: &Row, name: &str) -> (String, Thi
         );
         assert_eq!(made.status, 201, "{}", made.text());
     }
+    if needs("{dialect}") {
+        put_dialect(server, root, &format!("{name}-l"));
+    }
     let hook = if needs("{hook}") { make(server, root, "/api/v1/hooks", &hook()) } else { String::new() };
     if needs("{account}") {
         let made = root.ask(server, "POST", "/api/v1/accounts", &account(&format!("{name}-a"), &[]));
@@ -295,6 +317,7 @@ fn prepared(server: &Server, root: &User, row: &Row, name: &str) -> (String, Thi
         .replace("{job}", &own.job)
         .replace("{document}", &format!("{name}-d"))
         .replace("{machine}", &format!("{name}-m"))
+        .replace("{dialect}", &format!("{name}-l"))
         .replace("{account}", &format!("{name}-a"))
         .replace("{hook}", &hook)
         .replace("{name}", name);
@@ -323,6 +346,7 @@ fn each_role_may_do_what_the_table_says() {
     let romi =
         root.ask(&server, "PUT", "/api/v1/machines/romi", &serde_json::from_str(TABLE_10).expect("JSON"));
     assert_eq!(romi.status, 201);
+    put_dialect(&server, &root, "shop");
     let callers = callers(&server, &root);
     let mut wrong = Vec::new();
     let rows: Vec<Row> = programs().into_iter().chain(others()).collect();
@@ -334,10 +358,11 @@ fn each_role_may_do_what_the_table_says() {
                 made = Some(prepared(&server, &root, row, &format!("t{number}-{of}")));
             }
             let (target, own) = made.as_ref().expect("it is made");
-            let body = match row.body {
-                Body::None => Value::Null,
-                Body::Program => PROGRAM.into(),
-                Body::Json(make) => make(own),
+            let (media, body) = match row.body {
+                Body::None => (None, String::new()),
+                Body::Program => (Some("text/plain"), PROGRAM.to_owned()),
+                Body::Dictionary => (Some("application/toml"), dictionary(&own.name)),
+                Body::Json(make) => (Some("application/json"), make(own).to_string()),
             };
             // A logout would end the session of the rows after it.
             let user = match (row.method, row.path, caller.strength) {
@@ -346,7 +371,7 @@ fn each_role_may_do_what_the_table_says() {
                 }
                 _ => caller.user.clone(),
             };
-            let answer = user.ask(&server, row.method, target, &body);
+            let answer = user.send(&server, row.method, target, media, body.as_bytes());
             let expected = expected(row, caller);
             if answer.status != expected {
                 wrong.push(format!(
