@@ -209,7 +209,7 @@ fn a_faulty_dictionary_is_refused() {
     for (path, text, status) in [
         ("fanuc", "id = \"fanuc\"\ntitle = \"\"\n", 409),
         ("auto", "id = \"auto\"\ntitle = \"\"\nbase = \"fanuc\"\n", 422),
-        ("other", &*dictionary("FLOOD_ON"), 422),
+        ("other", &*dictionary("FLOOD_ON").replace("id = \"shop\"", "id = \"third\""), 422),
         ("a%20b", "id = \"a b\"\ntitle = \"\"\nbase = \"fanuc\"\n", 422),
         ("empty", "", 422),
     ] {
@@ -239,7 +239,10 @@ fn a_dialect_of_the_shop_is_known_everywhere() {
     }
     let processed = server.program("POST", "/transpiler/a.nc?dialect=shop", PROGRAM);
     assert_eq!(processed.status, 201, "{}", processed.text());
-    assert_eq!(server.get("/persistence/a.nc").status, 200);
+    for address in ["/persistence/a.nc", "/persistence/a.nc?form=printed", "/transpiler/a.nc"] {
+        let payload = server.get(address);
+        assert_eq!(payload.status, 200, "{address}: {}", payload.text());
+    }
     let persistence = format!("http://{}", server.address);
     let alone = Server::of(&Part::Transpiler { persistence }, Limits::default());
     let processed = alone.program("POST", "/transpiler/b.nc?dialect=shop", PROGRAM);
