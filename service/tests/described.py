@@ -53,13 +53,30 @@ parameters = { "path.name" = "a.cn" }
 include-path = "/api/v1/machines/{name}"
 include-method = "GET"
 parameters = { "path.name" = "romi-discovery-4022" }
+
+[[operations]]
+include-path-regex = "^/api/v1/dialects/"
+include-method = "GET"
+parameters = { "path.name" = "shop", "path.number" = 1 }
+"""
+
+DICTIONARY = b'id = "shop"\ntitle = "A shop\'s"\nbase = "fanuc"\n'
+
+# A dictionary is a text: schemathesis has no idea of TOML.
+HOOKS = """import schemathesis
+
+schemathesis.serializer.alias("application/toml", "text/plain")
 """
 
 
-def post(address, body, media):
-    request = urllib.request.Request(address, data=body, headers={"Content-Type": media}, method="POST")
+def send(method, address, body, media):
+    request = urllib.request.Request(address, data=body, headers={"Content-Type": media}, method=method)
     with urllib.request.urlopen(request, timeout=30) as answer:
-        return json.load(answer)
+        return answer.read()
+
+
+def post(address, body, media):
+    return json.loads(send("POST", address, body, media))
 
 
 def things(address):
@@ -70,6 +87,7 @@ def things(address):
     asked = {"programs": [program], "to": "haas"}
     job = post(f"{address}/api/v1/jobs", json.dumps(asked).encode(), "application/json")["id"]
     post(f"{address}/transpiler/a.cn?dialect=mach9", PROGRAM, "text/plain")
+    send("PUT", f"{address}/api/v1/dialects/shop", DICTIONARY, "application/toml")
     asked = {"target": TARGET, "events": ["job"]}
     hook = post(f"{address}/api/v1/hooks", json.dumps(asked).encode(), "application/json")["id"]
     names = {"PROGRAM": program, "TRANSLATION": translation, "JOB": job, "HOOK": hook}
@@ -89,7 +107,8 @@ def main():
         try:
             address = server.stdout.readline().strip()
             config = folder / "schemathesis.toml"
-            config.write_text(things(address))
+            (folder / "hooks.py").write_text(HOOKS)
+            config.write_text('hooks = "hooks.py"\n' + things(address))
             begin = time.monotonic()
             done = subprocess.run(
                 [schemathesis, "--config-file", str(config), "run", f"{address}/api/v1/openapi.json",
