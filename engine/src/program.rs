@@ -32,10 +32,20 @@ use crate::request::{self, One};
 /// Outputs by their names.
 pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
 
+/// The bytes of a file, which its readers share: a program may have hundreds of megabytes.
+#[derive(Clone, Debug)]
+struct Shared(Arc<Vec<u8>>);
+
+impl AsRef<[u8]> for Shared {
+    fn as_ref(&self) -> &[u8] {
+        &self.0
+    }
+}
+
 /// Files by their names, and the dialects that are known.
 #[derive(Debug, Default)]
 pub(crate) struct Files {
-    all: BTreeMap<String, Vec<u8>>,
+    all: BTreeMap<String, Shared>,
     /// The built-in dialects, and those of a shop.
     pub(crate) dialects: Dialects,
 }
@@ -43,12 +53,12 @@ pub(crate) struct Files {
 impl Files {
     /// Keeps a file, in the place of another of its name.
     pub(crate) fn put(&mut self, name: &str, bytes: Vec<u8>) {
-        self.all.insert(name.to_owned(), bytes);
+        self.all.insert(name.to_owned(), Shared(Arc::new(bytes)));
     }
 
     /// The bytes of a file.
     pub(crate) fn get(&self, name: &str) -> Option<&Vec<u8>> {
-        self.all.get(name)
+        self.all.get(name).map(|file| &*file.0)
     }
 
     /// A dialect by its name; of no name and of `auto`, none.
@@ -86,7 +96,8 @@ pub(crate) fn open(
     files: &Files,
     messages: &mut Buffer,
 ) -> Result<Source, Problem> {
-    let text = files.get(name).ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
+    let text = files.all.get(name);
+    let text = text.ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
     let mut source = Source::of(Cursor::new(text.clone()), name);
     let Some(refusal) = not_milling::refusal(&mut source, milling)? else { return Ok(source) };
     refusal.print(messages).map_err(|e| Problem::file("read", name, &e))?;

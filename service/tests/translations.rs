@@ -207,3 +207,15 @@ fn outputs_are_those_of_the_command_line() {
         assert_eq!(get(what).status, status, "{what}: {}", get(what).text());
     }
 }
+
+/// A text that is not whole any more is never taken for a shorter program.
+#[test]
+fn a_lost_piece_is_a_fault() {
+    let server = Server::all();
+    let made = server.program("POST", "/api/v1/programs?name=a.cn&dialect=mach9", PROGRAM);
+    let program = made.json()["id"].as_str().expect("an id").to_owned();
+    server.sql("DELETE FROM content_piece").expect("the piece is gone");
+    let asked = json!({ "program": program, "to": "fanuc" }).to_string();
+    let refused = server.json("POST", "/api/v1/translations", asked.as_bytes());
+    assert_eq!(refused.status, 500, "{}", refused.text());
+}

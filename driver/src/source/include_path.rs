@@ -65,13 +65,13 @@ pub fn load_subprograms(
         return Ok(());
     }
     source.rewind()?;
-    let mut text = Vec::new();
-    source.file.read_to_end(&mut text).map_err(|e| wrong(&e, &shown))?;
+    let mut whole = Vec::new();
+    source.file.read_to_end(&mut whole).map_err(|e| wrong(&e, &shown))?;
     source.rewind()?;
     let mut called =
-        Called { sha256: Sha256::digest(&text).into(), bytes: text.len() as u64, files: Vec::new() };
-    let Some(own) = program_of(&text, dialect) else { return Ok(()) };
-    let mut whole = text[..own.end].to_vec();
+        Called { sha256: Sha256::digest(&whole).into(), bytes: whole.len() as u64, files: Vec::new() };
+    let Some(own) = program_of(&whole, dialect) else { return Ok(()) };
+    whole.truncate(own.end);
     let mut asked: BTreeSet<Text> = BTreeSet::new();
     let folders = Folders::list(&folders, dialect, library);
     let mut lines = count(&whole);

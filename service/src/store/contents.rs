@@ -85,17 +85,15 @@ impl Store {
 
     /// A content as a whole.
     pub(crate) fn whole(&self, content: &Content) -> Result<Vec<u8>, StoreError> {
-        self.database.read(|from| {
-            let pieces = from.rows(
-                "SELECT bytes FROM content_piece WHERE content = $1 ORDER BY number",
-                values![content.id],
-            )?;
-            let mut whole = Vec::with_capacity(usize::try_from(content.bytes).unwrap_or_default());
-            for mut piece in pieces {
-                whole.extend_from_slice(&piece.bytes(0)?);
-            }
-            Ok(whole)
-        })
+        let mut whole = Vec::with_capacity(usize::try_from(content.bytes).unwrap_or_default());
+        // One after the other: all pieces at once would be in memory besides the whole.
+        let mut number = 0;
+        while (whole.len() as u64) < content.bytes {
+            let lost = || StoreError::Database(format!("piece {number} of a content is lost"));
+            whole.extend_from_slice(&self.piece(content, number)?.ok_or_else(lost)?);
+            number += 1;
+        }
+        Ok(whole)
     }
 
     /// Throws away what was never received as a whole.
