@@ -4,7 +4,7 @@ use ncc_service::{Limits, Part};
 use serde_json::{Value, json};
 
 use crate::client::{Answer, Server};
-use crate::search::facts;
+use crate::search::{facts, settled};
 
 const PATH: &str = "/api/v1/dialects/shop";
 
@@ -273,6 +273,21 @@ fn facts_follow_a_dictionary() {
     for own in &all {
         assert_eq!(facts(&server, own)["facts"]["refused"], true);
     }
+}
+
+/// A translation into a dialect is found as stale, although its program does not name the dialect.
+#[test]
+fn a_stale_translation_into_a_dialect_of_the_shop_is_found() {
+    let server = with_shop();
+    let own = program(&server, "name=a.nc&dialect=haas", &PROGRAM.replace("M277", "M08"));
+    translated(&server, &json!({ "program": own, "to": "shop" }));
+    let found = || {
+        settled(&server);
+        server.get("/api/v1/search?stale=true").json()["programs"].as_array().map_or(0, Vec::len)
+    };
+    assert_eq!(found(), 0);
+    put(&server, PATH, &dictionary("MIST_ON"));
+    assert_eq!(found(), 1);
 }
 
 /// A custom function (`function_dict`) is for the command line: the dictionary is kept, and its program is never started.
