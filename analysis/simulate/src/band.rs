@@ -41,6 +41,18 @@ impl Band {
         Band { inner, outer, base, form: Form::Cone(slope) }
     }
 
+    /// The radius of its round corner, mm; 0 of others.
+    #[inline(always)]
+    pub(crate) fn round(&self) -> f64 {
+        if let Form::Round(radius) = self.form { radius } else { 0.0 }
+    }
+
+    /// How much its cone rises a mm; 0 of others.
+    #[inline(always)]
+    pub(crate) fn slope(&self) -> f64 {
+        if let Form::Cone(slope) = self.form { slope } else { 0.0 }
+    }
+
     /// Its height above the tip at a distance from the axis, at most `outer`.
     #[inline]
     pub(crate) fn height(&self, distance: f64) -> f64 {

@@ -7,7 +7,7 @@ use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f32x8, u32x8};
 use crate::cut::{Cut, Hit, TOUCH, take};
 use crate::map::{Grid, HeightMap};
 use crate::moves::{Move, Way};
-use crate::surface::{Across, Along, Cells, LANES, Row, Surface, endless, indices};
+use crate::surface::{Across, Along, Cells, LANES, Row, Surface, endless, indices, not_below_zero};
 use crate::sweep::sweep;
 use crate::tool::Cutter;
 
@@ -73,12 +73,12 @@ impl Cutting<'_> {
     fn last_row<S: Simd>(&mut self, simd: S, begin: usize, count: usize, surface: impl Surface) {
         let (heights, last) =
             (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
-        let mut sums = Sums::new(simd);
+        let (mut sums, number) = (Sums::new(simd), u32x8::splat(simd, self.number));
         for (n, (heights, last)) in heights.chunks_mut(LANES).zip(last.chunks_mut(LANES)).enumerate() {
             let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
             few[..heights.len()].copy_from_slice(heights);
             of[..last.len()].copy_from_slice(last);
-            sums.lower(&mut few, &mut of, surface.at(indices(simd, n * LANES)), self.number);
+            sums.lower(&mut few, &mut of, surface.at(indices(simd, n * LANES)), number);
             heights.copy_from_slice(&few[..heights.len()]);
             last.copy_from_slice(&of[..last.len()]);
         }
@@ -101,14 +101,20 @@ impl<S: Simd> Sums<S> {
 
     /// Lowers cells to a surface, where that is lower.
     #[inline(always)]
-    fn lower(&mut self, heights: &mut [f32; LANES], last: &mut [u32; LANES], new: f32x8<S>, number: u32) {
+    fn lower(
+        &mut self,
+        heights: &mut [f32; LANES],
+        last: &mut [u32; LANES],
+        new: f32x8<S>,
+        number: u32x8<S>,
+    ) {
         let simd = new.simd;
         let old = f32x8::simd_from(simd, *heights);
+        // No height of material is endless as a surface may be: a difference is always a number.
+        let depth = not_below_zero(old - new);
+        *heights = old.min(new).into();
         let is_lower = new.simd_lt(old);
-        // Infinity less infinity is no number: the mask drops it.
-        let depth = is_lower.select(old - new, f32x8::splat(simd, 0.0));
-        *heights = is_lower.select(new, old).into();
-        *last = is_lower.select(u32x8::splat(simd, number), u32x8::simd_from(simd, *last)).into();
+        *last = is_lower.select(number, u32x8::simd_from(simd, *last)).into();
         self.volumes += depth;
         self.depths = self.depths.max(depth);
     }
@@ -117,7 +123,7 @@ impl<S: Simd> Sums<S> {
 impl Cells for Cutting<'_> {
     type Sums<S: Simd> = Sums<S>;
 
-    const NARROW: usize = 2 * LANES;
+    const TAKES_NARROW: bool = true;
 
     #[inline(always)]
     fn grid(&self) -> Grid {
@@ -149,13 +155,14 @@ impl Cells for Cutting<'_> {
             return sums;
         };
         let last = &mut self.map.last[whole];
-        let (count, mut at) = (count as i32 as f32, indices(simd, 0));
+        let (count, mut at, number) =
+            (count as i32 as f32, indices(simd, 0), u32x8::splat(simd, self.number));
         for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
             // Most of what a tool goes over is cut already: the surface is looked at where it may be lower. Cells behind the
             // last one are those of the next row, and stay.
             if f32x8::simd_from(simd, *heights).simd_gt(least).any_true() {
                 let new = at.simd_lt(count).select(surface.at(at), endless(simd));
-                sums.lower(heights, last, new, self.number);
+                sums.lower(heights, last, new, number);
             }
             at += LANES as f32;
         }
@@ -180,23 +187,25 @@ impl Cells for Cutting<'_> {
             return sums;
         }
         let least = along.least(f32x8::splat(simd, 0.0));
-        for first in columns.clone().step_by(LANES) {
-            let (s, d) = at.of(indices(simd, first - columns.start));
-            let mut number = f32x8::splat(simd, 0.0);
-            for row in rows.clone() {
-                let cell = row * width + first;
-                let heights = self.map.heights.get_mut(cell..).and_then(<[f32]>::first_chunk_mut);
-                let last = self.map.last.get_mut(cell..).and_then(<[u32]>::first_chunk_mut);
-                let (Some(heights), Some(last)) = (heights, last) else { break };
-                let old = f32x8::simd_from(simd, *heights);
-                if W::IS_CHEAP || old.simd_gt(least).any_true() {
-                    let new = along.over(s - number * at.dd, d + number * at.ds);
-                    if new.simd_lt(old).any_true() {
-                        sums.lower(heights, last, new, self.number);
-                    }
+        let number = u32x8::splat(simd, self.number);
+        // From the first cell of a box to its last. Both slices are as long, so that one test is enough.
+        let (begin, count) = (rows.start * width + columns.start, columns.end - columns.start);
+        let all = begin..begin + (rows.end - rows.start - 1) * width + count;
+        let heights = self.map.heights.get_mut(all.clone());
+        let (Some(heights), Some(last)) = (heights, self.map.last.get_mut(all)) else { return sums };
+        let (mut row_s, mut row_d) = at.of(indices(simd, 0));
+        let (mut row, steps) = (0, [at.ds * LANES as f32, at.dd * LANES as f32]);
+        while let (Some(heights), Some(last)) =
+            (heights.get_mut(row..row + count), last.get_mut(row..row + count))
+        {
+            let (mut s, mut d) = (row_s, row_d);
+            for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
+                if W::IS_CHEAP || f32x8::simd_from(simd, *heights).simd_gt(least).any_true() {
+                    sums.lower(heights, last, along.over(s, d), number);
                 }
-                number += 1.0;
+                (s, d) = (s + steps[0], d + steps[1]);
             }
+            (row_s, row_d, row) = (row_s - at.dd, row_d + at.ds, row + width);
         }
         sums
     }
@@ -239,7 +248,7 @@ impl Cells for Probing<'_> {
 
     type Sums<S: Simd> = ();
 
-    const NARROW: usize = 0;
+    const TAKES_NARROW: bool = false;
 
     fn begin<S: Simd>(&mut self, _simd: S, _rows: &Range<usize>, _columns: &Range<usize>) {}
 

@@ -3,8 +3,11 @@
 //! Every [`STRIDE`] moves it is kept what has changed since the last time, and every [`KEY`] times the whole map. From the
 //! whole map before a place, the changes up to it are put in; from there, at most so many moves are made again.
 
+use fearless_simd::{Simd, SimdBase, SimdFrom, SimdMask, dispatch, u32x8};
+
 use crate::hollows::Spaces;
 use crate::map::{HeightMap, TILE};
+use crate::surface::{LANES, level};
 
 /// Moves from one place to the next that can be gone to at once.
 pub(crate) const STRIDE: usize = 5_000;
@@ -13,18 +16,18 @@ pub(crate) const STRIDE: usize = 5_000;
 const KEY: usize = 32;
 
 /// Cells of a row that are looked at together: most of them have not changed.
-const GROUP: usize = 16;
+const GROUP: usize = 2 * LANES;
 
-/// Whether any of these moves is after another, and whether all are. Moves are below 2³¹, so that the sign of a difference
-/// tells which is less.
+/// Whether any of these moves is after another, and whether all are.
 #[inline(always)]
-fn after(moves: &[u32], before: u32) -> [bool; 2] {
-    let [mut any, mut all] = [0, u32::MAX];
-    for own in moves {
-        let difference = before.wrapping_sub(*own);
-        (any, all) = (any | difference, all & difference);
+fn after<S: Simd>(simd: S, moves: &[u32; GROUP], before: u32) -> [bool; 2] {
+    let (halves, _) = moves.as_chunks::<LANES>();
+    let mut is_after = [false, true];
+    for half in halves {
+        let own = u32x8::simd_from(simd, *half).simd_gt(before);
+        is_after = [is_after[0] | own.any_true(), is_after[1] & own.all_true()];
     }
-    [any, all].map(|difference| difference >> 31 == 1)
+    is_after
 }
 
 /// Changes of a stride.
@@ -44,38 +47,34 @@ struct Changes {
 
 impl Changes {
     /// Adds the cells of a part of a row that moves of the stride have cut.
-    fn add(&mut self, map: &HeightMap, cells: std::ops::Range<usize>, before: usize) {
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, map: &HeightMap, cells: std::ops::Range<usize>, before: usize) {
         let before = before as u32;
         if !map.hollows.is_empty() {
             let under = map.hollows.range(cells.clone());
             let under = under.filter(|(cell, own)| own.last > before && map.last[*cell] <= before);
             self.under.extend(under.map(|(cell, own)| (cell, own.clone())));
         }
-        for first in cells.clone().step_by(GROUP) {
-            let group = first..cells.end.min(first + GROUP);
-            let moves = &map.last[group.clone()];
-            // Code for a known number of cells takes half the time.
-            let is_after = match moves.first_chunk::<GROUP>() {
-                Some(whole) => after(whole, before),
-                None => after(moves, before),
-            };
-            match is_after {
+        let (groups, rest) = map.last[cells.clone()].as_chunks();
+        let mut first = cells.start;
+        for group in groups {
+            match after(simd, group, before) {
                 [false, _] => {}
-                [true, true] => self.add_run(group),
-                [true, false] => self.add_group(map, group, before),
+                [true, true] => self.add_run(first..first + GROUP),
+                [true, false] => self.add_group(group, first, before),
             }
+            first += GROUP;
         }
+        self.add_group(rest, first, before);
     }
 
-    /// Adds the runs of a group in which some cells were cut.
-    fn add_group(&mut self, map: &HeightMap, cells: std::ops::Range<usize>, before: u32) {
-        let (mut first, end) = (cells.start, cells.end);
-        while let Some(skipped) = map.last[first..end].iter().position(|last| *last > before) {
-            first += skipped;
-            let rest = &map.last[first..end];
-            let count = rest.iter().position(|last| *last <= before).unwrap_or(rest.len());
+    /// Adds the runs of a group from a cell on, of which some cells were cut.
+    fn add_group(&mut self, mut group: &[u32], mut first: usize, before: u32) {
+        while let Some(skipped) = group.iter().position(|last| *last > before) {
+            (group, first) = (&group[skipped..], first + skipped);
+            let count = group.iter().position(|last| *last <= before).unwrap_or(group.len());
             self.add_run(first..first + count);
-            first += count;
+            (group, first) = (&group[count..], first + count);
         }
     }
 
@@ -93,6 +92,7 @@ impl Changes {
     }
 
     /// Copies the cells of the runs, when all runs are known.
+    #[inline(always)]
     fn copy_cells(&mut self, map: &HeightMap, before: usize) {
         let before = before as u32;
         self.runs.shrink_to_fit();
@@ -111,6 +111,7 @@ impl Changes {
     }
 
     /// Puts them into a map; `before` moves were made before the stride.
+    #[inline(always)]
     fn put_into(&self, map: &mut HeightMap, before: usize) {
         let mut at = 0;
         let mut hollows = self.hollows.iter().peekable();
@@ -173,6 +174,7 @@ impl History {
     }
 
     /// Cells of these columns and rows may change.
+    #[inline(always)]
     pub(crate) fn touch(&mut self, columns: &std::ops::Range<usize>, rows: &std::ops::Range<usize>) {
         let is_in = |own: &std::ops::Range<usize>, all: &std::ops::Range<usize>| {
             own.start >= all.start && own.end <= all.end
@@ -182,6 +184,7 @@ impl History {
         }
     }
 
+    #[cold]
     fn mark(&mut self, columns: &std::ops::Range<usize>, rows: &std::ops::Range<usize>) {
         if columns.is_empty() || rows.is_empty() {
             return;
@@ -205,9 +208,14 @@ impl History {
 
     /// Keeps the state of a map as that of the next stride.
     pub(crate) fn keep(&mut self, map: &HeightMap) {
+        dispatch!(level(), simd => self.keep_by(simd, map));
+    }
+
+    #[inline(always)]
+    fn keep_by<S: Simd>(&mut self, simd: S, map: &HeightMap) {
         let mut changes = Changes::default();
         let before = self.strides.len() * STRIDE;
-        self.each_dirty(|_, cells| changes.add(map, cells, before));
+        self.each_dirty(|_, cells| changes.add(simd, map, cells, before));
         changes.copy_cells(map, before);
         changes.put_into(&mut self.base, before);
         self.strides.push(changes);
@@ -246,6 +254,7 @@ impl History {
     }
 
     /// Shows the cells of tiles that may differ from the base, row by row; after that none does.
+    #[inline(always)]
     fn each_dirty(&mut self, mut shown: impl FnMut(&mut HeightMap, std::ops::Range<usize>)) {
         let [width, height] = self.base.grid.cells;
         self.marked = NONE;

@@ -23,6 +23,7 @@ mod hollows;
 mod isometric;
 mod leaning;
 mod level_arc;
+mod line;
 mod map;
 mod mesh;
 mod moves;

@@ -31,7 +31,8 @@ impl Grid {
     /// Centre of a cell along an axis, mm.
     #[inline]
     pub fn centre(&self, axis: usize, n: usize) -> f64 {
-        self.low[axis] + (n as f64 + 0.5) * self.cell
+        // There are never so many that they need 64 bits, of which many processors cannot make a number at once.
+        self.low[axis] + (f64::from(n as i32) + 0.5) * self.cell
     }
 
     /// The cells of which the centre lies between two places of an axis; empty where none does.
@@ -49,6 +50,21 @@ impl Grid {
         let first = if f64::from(first) < low { first + 1 } else { first }.max(1) - 1;
         let behind = (high as i32).min(self.cells[axis] as i32);
         first.min(behind) as usize..behind as usize
+    }
+
+    /// The same in fewer steps. A cell whose centre is at an end may be one of them or not.
+    #[inline(always)]
+    pub(crate) fn about(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
+        /// A sum with this is so great that its last bit stands for 1: its low bits are the other number, rounded.
+        const WHOLE: f64 = 6_755_399_441_055_744.0;
+        let most = f64::from(self.cells[axis] as i32);
+        let nearest = |at: f64| {
+            let place = (at - self.low[axis]) * self.per_mm;
+            let place = if place > 0.0 { place } else { 0.0 };
+            let place = if place < most { place } else { most };
+            (place + WHOLE).to_bits() as u32 as usize
+        };
+        nearest(low)..nearest(high)
     }
 
     /// The cell in which a place lies.

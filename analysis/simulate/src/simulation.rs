@@ -151,13 +151,13 @@ impl Simulation {
         assert!(usize::from(own.tilt) <= self.setup.tilts.len(), "a move on a plane that is not set up");
         let count = self.moves.len();
         self.seek(count);
-        let from = self.before(count);
-        let low = lowest(from, &own);
+        let (from, continues) = self.start(count, &own);
+        let low = lowest(&from, &own);
         if own.way == Way::Rapid || self.has_obstacles {
             self.look(from, &own, low);
         }
         let mut cut = Cut::default();
-        self.cut(from, &own, count, low, &mut cut);
+        self.cut((&from, continues), &own, count, low, &mut cut);
         self.moves.push(own);
         self.removed.push(cut.removed(self.map.grid.cell));
         self.shown = count + 1;
@@ -188,17 +188,34 @@ impl Simulation {
             self.shown = stride * STRIDE;
         }
         while self.shown < moves {
-            let (from, own) = (self.before(self.shown), self.moves[self.shown]);
-            self.cut(from, &own, self.shown, lowest(from, &own), &mut Cut::default());
+            let own = self.moves[self.shown];
+            let (from, continues) = self.start(self.shown, &own);
+            self.cut((&from, continues), &own, self.shown, lowest(&from, &own), &mut Cut::default());
             self.shown += 1;
+        }
+    }
+
+    /// Where the tip is before a move, counted from 0, and whether the tool has cut what it cuts there.
+    #[inline(always)]
+    fn start(&self, at: usize, own: &Move) -> ([f64; 3], bool) {
+        match at.checked_sub(1).and_then(|at| self.moves.get(at)) {
+            Some(last) => (last.end, last.tool == own.tool && last.way != Way::Away),
+            None => (self.setup.start, false),
         }
     }
 
     /// Cuts; `number` counts from 0, `low` is the least Z.
     #[inline(always)]
-    fn cut(&mut self, from: [f64; 3], own: &Move, number: usize, low: f64, cut: &mut Cut) {
+    fn cut(
+        &mut self,
+        (from, continues): (&[f64; 3], bool),
+        own: &Move,
+        number: usize,
+        low: f64,
+        cut: &mut Cut,
+    ) {
         if own.tilt != 0 {
-            *cut = self.cut_leaning(from, own, number);
+            *cut = self.cut_leaning(*from, own, number);
             return;
         }
         let tool = &self.setup.tools[own.tool];
@@ -206,13 +223,11 @@ impl Simulation {
             return;
         }
         if tool.cutter.upper().is_some() {
-            *cut = self.cut_under(from, own, number);
+            *cut = self.cut_under(*from, own, number);
             return;
         }
-        let before = number.checked_sub(1).map(|before| &self.moves[before]);
-        let continues = before.is_some_and(|before| before.tool == own.tool && before.way != Way::Away);
         let number = number as u32 + 1;
-        lower(&mut self.map, number, &tool.cutter, [&from, &own.end], &own.way, continues, cut);
+        lower(&mut self.map, number, &tool.cutter, [from, &own.end], &own.way, continues, cut);
         self.history.touch(&cut.columns, &cut.rows);
     }
 
@@ -403,13 +418,13 @@ impl Simulation {
 
 /// The least Z of a move; endless where it cuts nothing.
 #[inline]
-fn lowest(from: [f64; 3], own: &Move) -> f64 {
+fn lowest(from: &[f64; 3], own: &Move) -> f64 {
     let ends = if from[2] < own.end[2] { from[2] } else { own.end[2] };
     match own.way {
         Way::Away => f64::INFINITY,
         // An arc in another plane may go below both of its ends.
         Way::Arc { plane, centre, sweep } if plane[2] != 2 => {
-            chords(from, own.end, plane.map(usize::from), centre, sweep).map(|at| at[2]).fold(ends, f64::min)
+            chords(*from, own.end, plane.map(usize::from), centre, sweep).map(|at| at[2]).fold(ends, f64::min)
         }
         Way::Rapid | Way::Feed | Way::Arc { .. } => ends,
     }

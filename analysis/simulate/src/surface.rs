@@ -7,6 +7,8 @@ use std::sync::LazyLock;
 
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8};
 
+use crate::band::Band;
+use crate::line::{Line, Sloped};
 use crate::map::Grid;
 
 /// Cells of a group. The widest vectors used hold eight numbers (AVX2); narrower ones take two or more instructions.
@@ -56,8 +58,8 @@ pub(crate) trait Cells {
     /// Sums over the rows of one box. They are apart from the visitor so that they stay in registers from row to row.
     type Sums<S: Simd>: Copy;
 
-    /// Boxes with so few columns are worked on as a whole, by [`Cells::narrow`]: faster, and more code.
-    const NARROW: usize;
+    /// Whether narrow boxes are worked on as a whole, by [`Cells::narrow`]: faster, and more code.
+    const TAKES_NARROW: bool;
 
     /// The grid of the cells.
     fn grid(&self) -> Grid;
@@ -100,6 +102,16 @@ pub(crate) trait Along: Copy {
     /// Whether [`Along::over`] costs no more than the test whether it is needed.
     const IS_CHEAP: bool = false;
 
+    /// Columns of a narrow box at most: in a wider one, what the cells take that are not touched is more than it takes to ask
+    /// where each row begins.
+    const NARROW: usize = 2 * LANES;
+
+    /// That of a band.
+    fn of(line: &Line, band: &Band) -> Self;
+
+    /// The values that it shares with the others.
+    fn own(&self) -> &Sloped;
+
     /// Its heights over cells so far along the line and across it.
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S>;
 
@@ -124,83 +136,62 @@ impl<W: Along> Surface for Row<W> {
 
 /// A surface along a line, and endless beyond the radius of the tool.
 #[derive(Clone, Copy)]
-pub(super) struct Within<W> {
-    pub(super) along: W,
-    /// Length of the line.
-    pub(super) length: f32,
-    /// Square of the radius.
-    pub(super) outer: f32,
-}
+pub(super) struct Within<W>(pub(super) W);
 
 impl<W: Along> Along for Within<W> {
     const IS_CHEAP: bool = W::IS_CHEAP;
 
     #[inline(always)]
+    fn of(line: &Line, band: &Band) -> Self {
+        Within(W::of(line, band))
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        self.0.own()
+    }
+
+    #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
-        let e = s - s.max(0.0).min(self.length);
-        (d * d + e * e).simd_le(self.outer).select(self.along.over(s, d), endless(s.simd))
+        let own = self.own();
+        let e = s - own.clamped(s);
+        (e * e).simd_le(own.left(d)).select(self.0.over(s, d), endless(s.simd))
     }
 
     #[inline(always)]
     fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
-        self.along.least(nearest)
-    }
-}
-
-/// The values that all surfaces along a line share.
-#[derive(Clone, Copy)]
-pub(super) struct Sloped {
-    /// Length of the line.
-    pub(super) length: f32,
-    /// Height of the band's lowest point at the start, mm.
-    pub(super) floor: f32,
-    /// By how much that rises, a mm.
-    pub(super) rise: f32,
-    /// Square of the band's radius.
-    pub(super) outer: f32,
-}
-
-impl Sloped {
-    /// The band's lowest point anywhere on the way.
-    #[inline(always)]
-    pub(super) fn bottom(&self) -> f32 {
-        self.floor + (self.rise * self.length).min(0.0)
-    }
-
-    /// How far along the way the band touches what is so far from it.
-    #[inline(always)]
-    pub(super) fn half<S: Simd>(&self, d: f32x8<S>) -> f32x8<S> {
-        not_below_zero(self.outer - d * d).sqrt()
-    }
-
-    /// The place of the line next to this one.
-    #[inline(always)]
-    fn clamped<S: Simd>(&self, t: f32x8<S>) -> f32x8<S> {
-        t.max(0.0).min(self.length)
-    }
-
-    /// How far a cell is beyond the low end of the line: below zero on the line.
-    #[inline(always)]
-    fn beyond<S: Simd>(&self, s: f32x8<S>) -> f32x8<S> {
-        if self.rise < 0.0 { s - self.length } else { -s }
+        self.0.least(nearest)
     }
 }
 
 /// A level bottom on a level way.
 #[derive(Clone, Copy)]
-pub(super) struct Level(pub(super) f32);
+pub(super) struct Level {
+    pub(super) own: Sloped,
+}
 
 impl Along for Level {
+    const NARROW: usize = 4 * LANES;
     const IS_CHEAP: bool = true;
 
     #[inline(always)]
+    fn of(line: &Line, band: &Band) -> Level {
+        Level { own: Sloped::of(line, band) }
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        &self.own
+    }
+
+    #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, _d: f32x8<S>) -> f32x8<S> {
-        f32x8::splat(s.simd, self.0)
+        f32x8::splat(s.simd, self.own.floor)
     }
 
     #[inline(always)]
     fn least<S: Simd>(&self, nearest: f32x8<S>) -> f32x8<S> {
-        f32x8::splat(nearest.simd, self.0)
+        f32x8::splat(nearest.simd, self.own.floor)
     }
 }
 
@@ -213,6 +204,18 @@ pub(super) struct Flat {
 }
 
 impl Along for Flat {
+    const NARROW: usize = 4 * LANES;
+
+    #[inline(always)]
+    fn of(line: &Line, band: &Band) -> Flat {
+        Flat { own: Sloped::of(line, band), sense: if line.rise < 0.0 { 1.0 } else { -1.0 } }
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        &self.own
+    }
+
     #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
@@ -230,6 +233,18 @@ impl Along for Flat {
 pub(super) struct WideFlat(pub(super) Flat);
 
 impl Along for WideFlat {
+    const NARROW: usize = 4 * LANES;
+
+    #[inline(always)]
+    fn of(line: &Line, band: &Band) -> WideFlat {
+        WideFlat(Flat::of(line, band))
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        &self.0.own
+    }
+
     #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let e = self.0.own.beyond(s);
@@ -255,7 +270,26 @@ pub(super) struct Ball {
     pub(super) ahead: f32,
 }
 
+impl Ball {
+    /// [`Ball::ahead`] on a way that rises by so much a mm.
+    #[inline(always)]
+    pub(super) fn ahead(rise: f32) -> f32 {
+        rise / (1.0 + rise * rise).sqrt()
+    }
+}
+
 impl Along for Ball {
+    #[inline(always)]
+    fn of(line: &Line, band: &Band) -> Ball {
+        let (own, radius) = (Sloped::of(line, band), band.round());
+        Ball { own, radius: radius as f32, square: (radius * radius) as f32, ahead: Ball::ahead(own.rise) }
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        &self.own
+    }
+
     #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
@@ -288,6 +322,16 @@ pub(super) struct LevelRound {
 
 impl Along for LevelRound {
     #[inline(always)]
+    fn of(line: &Line, band: &Band) -> LevelRound {
+        LevelRound { own: Sloped::of(line, band), round: Round::of(band) }
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        &self.own
+    }
+
+    #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let e = s - self.own.clamped(s);
         self.round.height(d * d + e * e) + self.own.floor
@@ -307,6 +351,16 @@ pub(super) struct SlopedRound {
 }
 
 impl Along for SlopedRound {
+    #[inline(always)]
+    fn of(line: &Line, band: &Band) -> SlopedRound {
+        SlopedRound { own: Sloped::of(line, band), round: Round::of(band) }
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        &self.own
+    }
+
     #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
@@ -343,6 +397,22 @@ pub(super) struct Cone {
 }
 
 impl Along for Cone {
+    #[inline(always)]
+    fn of(line: &Line, band: &Band) -> Cone {
+        let (own, slope) = (Sloped::of(line, band), band.slope() as f32);
+        let rise = own.rise;
+        let steep = rise.abs() >= slope;
+        let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
+        let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
+        let beside = if steep { sense } else { 0.0 };
+        Cone { own, slope, inner: band.inner as f32, ahead, beside, sense }
+    }
+
+    #[inline(always)]
+    fn own(&self) -> &Sloped {
+        &self.own
+    }
+
     #[inline(always)]
     fn over<S: Simd>(&self, s: f32x8<S>, d: f32x8<S>) -> f32x8<S> {
         let own = &self.own;
@@ -408,6 +478,11 @@ pub(super) struct Round {
 }
 
 impl Round {
+    #[inline(always)]
+    fn of(band: &Band) -> Round {
+        Round { inner: band.inner as f32, radius: band.round() as f32, outer: band.outer as f32 }
+    }
+
     #[inline(always)]
     pub(super) fn height<S: Simd>(&self, square: f32x8<S>) -> f32x8<S> {
         let beyond = not_below_zero(square.sqrt() - self.inner);

@@ -16,11 +16,12 @@ use fearless_simd::{Select, Simd, SimdBase, SimdInt, dispatch, f32x8, i32x8};
 
 use crate::band::{Band, Form};
 use crate::level_arc::{WIDEST, level_arc};
+use crate::line::Line;
 use crate::moves::Way;
 use crate::rows::{Done, Rows};
 use crate::surface::{
-    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Round, Row, Sloped, SlopedRound,
-    WideFlat, Within, indices, level,
+    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Row, SlopedRound, WideFlat, Within,
+    indices, level,
 };
 use crate::tool::Cutter;
 
@@ -129,101 +130,54 @@ fn distance(one: [f64; 2], other: [f64; 2]) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// A straight way of the tip, seen from above.
-struct Line {
-    from: [f64; 3],
-    to: [f64; 3],
-    /// Its direction.
-    along: [f64; 2],
-    length: f64,
-    /// How much it rises a mm.
-    rise: f64,
-    /// Whether what the tool cuts where the line starts is cut.
-    continues: bool,
-}
-
 impl Line {
-    fn new([from, to]: [&[f64; 3]; 2], length: f64, continues: bool) -> Line {
-        let [x, y] = [to[0] - from[0], to[1] - from[1]];
-        if length < 1e-9 {
-            // Straight down or up: what counts is the lower end.
-            let low = [from[0], from[1], from[2].min(to[2])];
-            let continues = continues && to[2] >= from[2];
-            return Line { from: low, to: low, along: [1.0, 0.0], length: 0.0, rise: 0.0, continues };
-        }
-        // One division: each takes as long as the rest of this.
-        let per_length = 1.0 / length;
-        Line {
-            from: *from,
-            to: *to,
-            along: [x * per_length, y * per_length],
-            length,
-            rise: (to[2] - from[2]) * per_length,
-            continues,
-        }
-    }
-
     /// The surface that a band leaves.
     fn sweep(&self, cells: &mut impl Cells, band: &Band) {
-        let floor = (self.from[2] + band.base) as f32;
-        let (rise, outer, inner) = (self.rise as f32, (band.outer * band.outer) as f32, band.inner as f32);
-        let own = Sloped { length: self.length as f32, floor, rise, outer };
         // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
-        let is_cut = self.continues && rise >= 0.0;
+        let is_cut = self.continues && self.rise >= 0.0;
         let around = |radius: f64| Done { around: if is_cut { radius as f32 } else { -1.0 }, ..Done::NONE };
         let done = if is_cut { Done { along: 0.0, ..Done::NONE } } else { Done::NONE };
-        let flat = Flat { own, sense: if rise < 0.0 { 1.0 } else { -1.0 } };
+        let is_level = self.rise == 0.0;
         match band.form {
-            Form::Flat if rise == 0.0 => self.rows(cells, band, around(band.outer), Level(floor)),
+            Form::Flat if is_level => self.rows::<Level>(cells, band, around(band.outer)),
             Form::Flat if band.outer > WIDE * cells.grid().cell => {
-                self.rows(cells, band, around(band.outer), WideFlat(flat))
+                self.rows::<WideFlat>(cells, band, around(band.outer));
             }
-            Form::Flat => self.rows(cells, band, around(band.outer), flat),
+            Form::Flat => self.rows::<Flat>(cells, band, around(band.outer)),
             Form::Round(radius) if band.inner == 0.0 => {
-                let ahead = rise / (1.0 + rise * rise).sqrt();
-                let (radius, square) = (radius as f32, (radius * radius) as f32);
                 // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
-                let along = if self.continues { radius * ahead.min(0.0) } else { f32::NEG_INFINITY };
-                let done = Done { along, ..Done::NONE };
-                self.rows(cells, band, done, Ball { own, radius, square, ahead });
+                let behind = radius as f32 * Ball::ahead(self.rise as f32).min(0.0);
+                let along = if self.continues { behind } else { f32::NEG_INFINITY };
+                self.rows::<Ball>(cells, band, Done { along, ..Done::NONE });
             }
-            Form::Round(radius) => {
-                let round = Round { inner, radius: radius as f32, outer: band.outer as f32 };
+            Form::Round(_) => {
                 let done = Done { around: around(band.inner).around, ..done };
-                match rise == 0.0 {
-                    true => self.rows(cells, band, done, LevelRound { own, round }),
-                    false => self.rows(cells, band, done, SlopedRound { own, round }),
+                match is_level {
+                    true => self.rows::<LevelRound>(cells, band, done),
+                    false => self.rows::<SlopedRound>(cells, band, done),
                 }
             }
-            Form::Cone(slope) => {
-                let slope = slope as f32;
-                let steep = rise.abs() >= slope;
-                let ahead = if steep { 0.0 } else { rise / (slope * slope - rise * rise).sqrt() };
-                let sense = if rise == 0.0 { 0.0 } else { rise.signum() };
-                let beside = if steep { sense } else { 0.0 };
-                self.rows(cells, band, done, Cone { own, slope, inner, ahead, beside, sense });
-            }
+            Form::Cone(_) => self.rows::<Cone>(cells, band, done),
         }
     }
 
     /// Goes over the rows that a band touches. `done` is known to be cut already.
     ///
     /// Each surface is compiled on its own: fewer values wait in memory for a register than in one large function.
-    fn rows(&self, cells: &mut impl Cells, band: &Band, done: Done, along: impl Along) {
-        dispatch!(level(), simd => self.rows_by(simd, cells, band.outer, done, along));
+    fn rows<W: Along>(&self, cells: &mut impl Cells, band: &Band, done: Done) {
+        dispatch!(level(), simd => self.rows_by::<_, _, W>(simd, cells, band, done));
     }
 
     #[inline(always)]
-    fn rows_by<S: Simd, C: Cells>(&self, simd: S, cells: &mut C, radius: f64, done: Done, along: impl Along) {
-        let grid = cells.grid();
+    fn rows_by<S: Simd, C: Cells, W: Along>(&self, simd: S, cells: &mut C, band: &Band, done: Done) {
+        let (grid, radius, along) = (cells.grid(), band.outer, W::of(self, band));
         let [[x0, y0, _], [x1, y1, _]] = [self.from, self.to];
-        let low = [least(x0, x1) - radius, least(y0, y1) - radius];
-        let high = [most(x0, x1) + radius, most(y0, y1) + radius];
-        let (columns, rows) = (grid.between(0, low[0], high[0]), grid.between(1, low[1], high[1]));
+        let columns = grid.about(0, least(x0, x1) - radius, most(x0, x1) + radius);
+        let rows = grid.about(1, least(y0, y1) - radius, most(y0, y1) + radius);
         if columns.is_empty() || rows.is_empty() {
             return;
         }
-        let narrow = columns.len() <= C::NARROW;
+        let narrow = C::TAKES_NARROW && columns.end - columns.start <= W::NARROW;
         let columns = if narrow { whole_groups(columns, grid.cells[0]) } else { columns };
         let mut sums = cells.begin(simd, &rows, &columns);
         let cell = grid.cell as f32;
@@ -232,18 +186,16 @@ impl Line {
         // Of the first cell; `ds` and `dd` are the steps from column to column, and with them those from row to row.
         let (s, d) = ((first[0] * ux + first[1] * uy) as f32, (first[1] * ux - first[0] * uy) as f32);
         let at = Across { s, d, ds: cell * ux as f32, dd: -cell * uy as f32 };
-        let length = self.length as f32;
         if narrow {
             // Asking of each cell is less work than asking where the cells of each row begin.
-            let within = Within { along, length, outer: (radius * radius) as f32 };
-            sums = cells.narrow(sums, simd, [rows, columns], at, within);
+            sums = cells.narrow(sums, simd, [rows, columns], at, Within(along));
             cells.end(sums);
             return;
         }
         let touched = Rows {
             end: [(self.to[0] - self.from[0]) as f32, (self.to[1] - self.from[1]) as f32],
             along: [ux as f32, uy as f32],
-            length,
+            length: self.length as f32,
             radius: radius as f32,
             first: [first[0] as f32, first[1] as f32],
             cell,

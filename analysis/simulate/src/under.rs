@@ -68,7 +68,7 @@ impl Cells for Lowest {
 
     type Sums<S: Simd> = ();
 
-    const NARROW: usize = 0;
+    const TAKES_NARROW: bool = false;
 
     fn begin<S: Simd>(&mut self, _simd: S, rows: &Range<usize>, columns: &Range<usize>) {
         let with = |own: &Range<usize>, other: &Range<usize>| match own.is_empty() {
