@@ -146,9 +146,9 @@ pub(crate) struct History {
     keys: Vec<HeightMap>,
     /// The map at the last of these places that is not behind the one that is shown.
     base: HeightMap,
-    /// How many strides that is from the start.
-    at: usize,
-    /// Tiles that may differ from it.
+    /// How many strides that is from the start; `None` after moves have been made, with which it does not keep up.
+    at: Option<usize>,
+    /// Tiles that may have changed since that place.
     dirty: Vec<bool>,
     /// Tiles along X.
     across: usize,
@@ -166,7 +166,7 @@ impl History {
             strides: Vec::new(),
             keys: vec![map.clone()],
             base: map.clone(),
-            at: 0,
+            at: Some(0),
             dirty: vec![false; across * along],
             across,
             marked: NONE,
@@ -196,8 +196,8 @@ impl History {
         self.marked = [rows, columns].map(|own| own.start * TILE..own.end * TILE);
     }
 
-    /// The stride that is shown.
-    pub(crate) fn at(&self) -> usize {
+    /// The stride that is shown, where nothing has been kept since.
+    pub(crate) fn at(&self) -> Option<usize> {
         self.at
     }
 
@@ -217,43 +217,42 @@ impl History {
         let before = self.strides.len() * STRIDE;
         self.each_dirty(|_, cells| changes.add(simd, map, cells, before));
         changes.copy_cells(map, before);
-        changes.put_into(&mut self.base, before);
         self.strides.push(changes);
-        self.at += 1;
-        if self.at.is_multiple_of(KEY) {
-            self.keys.push(self.base.clone());
+        self.at = None;
+        if self.strides.len().is_multiple_of(KEY) {
+            self.keys.push(map.clone());
         }
     }
 
     /// Puts a map into the state of a stride.
     pub(crate) fn show(&mut self, map: &mut HeightMap, stride: usize) {
         let key = stride / KEY;
-        let from_key = stride < self.at || key * KEY > self.at;
-        if from_key {
-            self.base.clone_from(&self.keys[key]);
-            self.dirty.fill(false);
-            self.marked = NONE;
-            self.at = key * KEY;
-        } else {
-            self.each_dirty(|base, cells| {
+        let near = self.at.filter(|at| (key * KEY..=stride).contains(at));
+        match near {
+            Some(_) => self.each_dirty(|base, cells| {
                 map.heights[cells.clone()].copy_from_slice(&base.heights[cells.clone()]);
                 map.last[cells.clone()].copy_from_slice(&base.last[cells.clone()]);
                 map.hollows.put_all(cells.clone(), base.hollows.range(cells));
-            });
-        }
-        while self.at < stride {
-            self.strides[self.at].put_into(&mut self.base, self.at * STRIDE);
-            if !from_key {
-                self.strides[self.at].put_into(map, self.at * STRIDE);
+            }),
+            None => {
+                self.base.clone_from(&self.keys[key]);
+                self.dirty.fill(false);
+                self.marked = NONE;
             }
-            self.at += 1;
         }
-        if from_key {
+        for at in near.unwrap_or(key * KEY)..stride {
+            self.strides[at].put_into(&mut self.base, at * STRIDE);
+            if near.is_some() {
+                self.strides[at].put_into(map, at * STRIDE);
+            }
+        }
+        if near.is_none() {
             map.clone_from(&self.base);
         }
+        self.at = Some(stride);
     }
 
-    /// Shows the cells of tiles that may differ from the base, row by row; after that none does.
+    /// Shows the cells of tiles that may have changed, row by row; after that none may.
     #[inline(always)]
     fn each_dirty(&mut self, mut shown: impl FnMut(&mut HeightMap, std::ops::Range<usize>)) {
         let [width, height] = self.base.grid.cells;

@@ -183,7 +183,7 @@ impl Simulation {
     fn show(&mut self, moves: usize) {
         let stride = (moves / STRIDE).min(self.history.len());
         // What has been made of a stride is gone on with.
-        if !(stride == self.history.at() && moves > self.shown) {
+        if !(self.history.at() == Some(stride) && moves > self.shown) {
             self.history.show(&mut self.map, stride);
             self.shown = stride * STRIDE;
         }
