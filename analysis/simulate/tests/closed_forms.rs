@@ -252,22 +252,22 @@ fn any_state_can_be_shown_again() {
     }
 }
 
-/// Moves that are made after going back, and going back at once after moves.
+/// Moves that are made after going back, and going back at once after moves, on a part of many tiles.
 #[test]
 fn moves_and_going_back_in_turn() {
     let mut rng = fastrand::Rng::with_seed(11);
-    let mut simulation = Simulation::new(Setup { cells: 120, ..setup(tool(&Shape::Ball, 5.0)) });
+    let mut simulation = Simulation::new(Setup { cells: 512, ..setup(tool(&Shape::Ball, 1.0)) });
     let mut states = vec![(0, simulation.map().clone())];
     for n in 1..=48_000 {
         // Now here, now there, and lower from time to time.
-        let corner = [10.0 * (n / 4_000 % 3) as f64, 8.0 * (n / 4_000 % 2) as f64];
+        let corner = [12.0 * (n / 4_000 % 3) as f64, 14.0 * (n / 4_000 % 2) as f64];
         let at = [corner[0] + rng.f64() * 9.0, corner[1] + rng.f64() * 9.0, -rng.f64() * n as f64 / 9_000.0];
         simulation.push(go(Way::Feed, at));
-        if n % 3_700 == 0 {
+        if n % 2_300 == 0 {
             states.push((n, simulation.map().clone()));
         }
-        if n % 8_300 == 0 {
-            let (moves, map) = &states[rng.usize(0..states.len())];
+        if n % 5_900 == 0 {
+            let (moves, map) = &states[states.len() - 1 - rng.usize(0..states.len().min(4))];
             simulation.seek(*moves);
             assert!(simulation.map() == map, "after {moves} of {n} moves");
         }
