@@ -233,6 +233,24 @@ fn a_wide_level_arc() {
     });
 }
 
+/// Only what the same tool has cut where a move starts is not cut again.
+#[test]
+fn a_wider_tool_goes_on_where_another_one_stood() {
+    let tools = [4.0, 12.0].map(|diameter| tool(&Shape::Flat, diameter)).to_vec();
+    let mut simulation = Simulation::new(Setup { tools, ..setup(tool(&Shape::Flat, 4.0)) });
+    simulation.push(go(Way::Rapid, [16.0, 15.0, 10.0]));
+    simulation.push(go(Way::Feed, [16.0, 15.0, -5.0]));
+    simulation.push(Move { tool: 1, ..go(Way::Feed, [24.0, 15.0, -5.0]) });
+    holds(simulation.map(), |x, y| {
+        let off = (x - x.clamp(16.0, 24.0)).hypot(y - 15.0);
+        match off {
+            off if off < 5.999 => Some(-5.0),
+            off if off > 6.001 => Some(0.0),
+            _ => None,
+        }
+    });
+}
+
 #[test]
 fn any_state_can_be_shown_again() {
     let mut rng = fastrand::Rng::with_seed(7);
