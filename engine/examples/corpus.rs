@@ -55,6 +55,7 @@ fn program(path: &Path, dialect: &str, out: &mut impl io::Write) -> io::Result<(
     requests.push(json!({ "verb": "time", "file": file, "from": dialect, "machine": "romi-discovery-4022" }));
     requests.push(json!({ "verb": "diff", "a": one, "b": one }));
     requests.push(json!({ "verb": "verify", "a": one, "b": one }));
+    requests.push(json!({ "verb": "simulate", "file": file, "from": dialect, "cells": 160 }));
     for request in requests {
         let mut engine = Engine::default();
         engine.put(&file, text.clone());
