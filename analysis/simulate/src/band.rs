@@ -47,7 +47,7 @@ impl Band {
         if let Form::Round(radius) = self.form { radius } else { 0.0 }
     }
 
-    /// How much its cone rises a mm; 0 of others.
+    /// Rise of its cone, mm a mm; 0 of others.
     #[inline(always)]
     pub(crate) fn slope(&self) -> f64 {
         if let Form::Cone(slope) = self.form { slope } else { 0.0 }

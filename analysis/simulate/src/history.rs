@@ -146,7 +146,7 @@ pub(crate) struct History {
     keys: Vec<HeightMap>,
     /// The map at the last of these places that is not behind the one that is shown.
     base: HeightMap,
-    /// How many strides that is from the start; `None` after moves have been made, with which it does not keep up.
+    /// That place, in strides from the start; `None` after moves have been made, with which the map does not keep up.
     at: Option<usize>,
     /// Tiles that may have changed since that place.
     dirty: Vec<bool>,

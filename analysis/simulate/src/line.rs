@@ -11,9 +11,9 @@ pub(crate) struct Line {
     /// Its direction.
     pub(crate) along: [f64; 2],
     pub(crate) length: f64,
-    /// How much it rises a mm.
+    /// Its rise, mm a mm.
     pub(crate) rise: f64,
-    /// Whether what the tool cuts where the line starts is cut.
+    /// Whether the tool has cut all that it cuts at the start of the line.
     pub(crate) continues: bool,
 }
 
@@ -76,7 +76,7 @@ impl Sloped {
         self.outer - d * d
     }
 
-    /// How far along the way the band touches what is so far from it.
+    /// The band touches a place so far from the line up to so much before and behind it.
     #[inline(always)]
     pub(crate) fn half<S: Simd>(&self, d: f32x8<S>) -> f32x8<S> {
         self.left(d).max(0.0).sqrt()
@@ -88,7 +88,7 @@ impl Sloped {
         t.max(0.0).min(self.length)
     }
 
-    /// How far a cell is beyond the low end of the line: below zero on the line.
+    /// Distance of a cell beyond the low end of the line: below zero on the line.
     #[inline(always)]
     pub(crate) fn beyond<S: Simd>(&self, s: f32x8<S>) -> f32x8<S> {
         if self.rise < 0.0 { s - self.length } else { -s }

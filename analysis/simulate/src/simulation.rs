@@ -195,7 +195,7 @@ impl Simulation {
         }
     }
 
-    /// Where the tip is before a move, counted from 0, and whether the tool has cut what it cuts there.
+    /// The place of the tip before a move, counted from 0, and whether the tool has cut all that it cuts there.
     #[inline(always)]
     fn start(&self, at: usize, own: &Move) -> ([f64; 3], bool) {
         match at.checked_sub(1).and_then(|at| self.moves.get(at)) {

@@ -102,8 +102,8 @@ pub(crate) trait Along: Copy {
     /// Whether [`Along::over`] costs no more than the test whether it is needed.
     const IS_CHEAP: bool = false;
 
-    /// Columns of a narrow box at most: in a wider one, what the cells take that are not touched is more than it takes to ask
-    /// where each row begins.
+    /// Columns of a narrow box at most: in a wider one, the cells that are not touched take longer than asking where each row
+    /// begins.
     const NARROW: usize = 2 * LANES;
 
     /// That of a band.
