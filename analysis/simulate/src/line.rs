@@ -76,7 +76,7 @@ impl Sloped {
         self.outer - d * d
     }
 
-    /// The band touches a place so far from the line up to so much before and behind it.
+    /// Half of the stretch along which the band touches a place at this distance from the line.
     #[inline(always)]
     pub(crate) fn half<S: Simd>(&self, d: f32x8<S>) -> f32x8<S> {
         self.left(d).max(0.0).sqrt()

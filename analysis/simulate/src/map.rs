@@ -55,7 +55,7 @@ impl Grid {
     /// The same in fewer steps. A cell whose centre is at an end may be one of them or not.
     #[inline(always)]
     pub(crate) fn about(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
-        /// A sum with this is so great that its last bit stands for 1: its low bits are the other number, rounded.
+        /// 1.5 · 2⁵²: numbers of this size are whole. A sum with it has the other number, rounded, in its low bits.
         const WHOLE: f64 = 6_755_399_441_055_744.0;
         let most = f64::from(self.cells[axis] as i32);
         let nearest = |at: f64| {

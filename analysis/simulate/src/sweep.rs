@@ -134,10 +134,11 @@ impl Line {
     /// The surface that a band leaves.
     fn sweep(&self, cells: &mut impl Cells, band: &Band) {
         // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
-        let is_cut = self.continues && self.rise >= 0.0;
+        let rise = self.rise as f32;
+        let is_cut = self.continues && rise >= 0.0;
         let around = |radius: f64| Done { around: if is_cut { radius as f32 } else { -1.0 }, ..Done::NONE };
         let done = if is_cut { Done { along: 0.0, ..Done::NONE } } else { Done::NONE };
-        let is_level = self.rise == 0.0;
+        let is_level = rise == 0.0;
         match band.form {
             Form::Flat if is_level => self.rows::<Level>(cells, band, around(band.outer)),
             Form::Flat if band.outer > WIDE * cells.grid().cell => {
@@ -146,7 +147,7 @@ impl Line {
             Form::Flat => self.rows::<Flat>(cells, band, around(band.outer)),
             Form::Round(radius) if band.inner == 0.0 => {
                 // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
-                let behind = radius as f32 * Ball::ahead(self.rise as f32).min(0.0);
+                let behind = radius as f32 * Ball::ahead(rise).min(0.0);
                 let along = if self.continues { behind } else { f32::NEG_INFINITY };
                 self.rows::<Ball>(cells, band, Done { along, ..Done::NONE });
             }
