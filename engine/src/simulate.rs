@@ -267,20 +267,29 @@ fn held_against(
 /// which height.
 fn part(cut: &CutProgram) -> Outputs {
     let map = cut.simulation.map();
-    let heights = map.heights.iter().flat_map(|height| height.to_le_bytes()).collect();
-    let last = map.last.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let grid = map.grid;
+    // Here no cells are left out between two rows.
+    let number = |cell: usize| {
+        let [column, row] = grid.place(cell);
+        (row * grid.cells[0] + column) as u32
+    };
+    let heights = grid.rows().flat_map(|row| &map.heights[row]).flat_map(|own| own.to_le_bytes()).collect();
+    let last = grid.rows().flat_map(|row| &map.last[row]).flat_map(|own| own.to_le_bytes()).collect();
     let mut outputs = vec![("heights", heights), ("last", last)];
     let covered = covered(map);
     if !covered.is_empty() {
         let all = map.hollows.iter().flat_map(|(cell, own)| own.iter().map(move |ends| (cell, *ends)));
         outputs.push((
             "hollows",
-            all.flat_map(|(cell, ends)| words([cell as u32, map.hollows.last(cell)], ends)).collect(),
+            all.flat_map(|(cell, ends)| words([number(cell), map.hollows.last(cell)], ends)).collect(),
         ));
-        let of =
-            |face: &Face| words([face.cell, u32::from(face.length) << 8 | face.side as u32], face.between);
+        let of = |face: &Face| {
+            let kind = u32::from(face.length) << 8 | face.side as u32;
+            words([number(face.cell as usize), kind], face.between)
+        };
         outputs.push(("faces", faces(map, &covered, parts::floor(cut)).iter().flat_map(of).collect()));
-        outputs.push(("covered", covered.into_iter().map(u8::from).collect()));
+        let rows = grid.rows().flat_map(|row| &covered[row]);
+        outputs.push(("covered", rows.map(|own| u8::from(*own)).collect()));
     }
     outputs
 }

@@ -69,11 +69,11 @@ pub(crate) type Shown<'s> = &'s mut dyn FnMut(usize, [f32; 2]);
 
 /// Cuts the cells that are shown.
 pub(crate) fn cut_between(map: &mut HeightMap, number: u32, show: impl FnOnce(Shown)) -> Cut {
-    let (mut cut, width) = (Cut::default(), map.grid.cells[0]);
+    let (mut cut, grid) = (Cut::default(), map.grid);
     show(&mut |cell, between| {
         let taken = take(map, cell, between, number);
         if taken > 0.0 {
-            let [row, column] = [cell / width, cell % width];
+            let [column, row] = grid.place(cell);
             cut.reaches(&(row..row + 1), &(column..column + 1));
             cut.heights += f64::from(taken);
             cut.depth = cut.depth.max(taken);
@@ -88,7 +88,7 @@ pub(crate) fn probe_between(map: &HeightMap, show: impl FnOnce(Shown)) -> Option
     show(&mut |cell, between| {
         let depth = map.hollows.material(cell, map.heights[cell], between);
         if depth > worst.map_or(TOUCH, |worst| worst.depth) {
-            let [row, column] = [cell / grid.cells[0], cell % grid.cells[0]];
+            let [column, row] = grid.place(cell);
             let place = [grid.centre(0, column), grid.centre(1, row), f64::from(between[0])];
             worst = Some(Hit { place, depth });
         }

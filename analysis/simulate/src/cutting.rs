@@ -37,20 +37,9 @@ struct Cutting<'m> {
 }
 
 impl Cutting<'_> {
-    /// As [`Cells::row`], of rows that are not worked on in whole groups.
+    /// As [`Cells::row`], cell by cell.
     #[cold]
     #[inline(never)]
-    fn odd_row<S: Simd>(&mut self, simd: S, row: usize, columns: Range<usize>, surface: impl Surface) {
-        match self.has_hollows {
-            true => self.row_with_hollows(simd, row, columns, surface),
-            false => {
-                let begin = row * self.map.grid.cells[0] + columns.start;
-                self.last_row(simd, begin, columns.len(), surface);
-            }
-        }
-    }
-
-    /// As [`Cells::row`], cell by cell.
     fn row_with_hollows<S: Simd>(
         &mut self,
         simd: S,
@@ -58,7 +47,7 @@ impl Cutting<'_> {
         columns: Range<usize>,
         surface: impl Surface,
     ) {
-        let start = row * self.map.grid.cells[0];
+        let start = self.map.grid.index([0, row]);
         for first in columns.clone().step_by(LANES) {
             let new: [f32; LANES] = surface.at(indices(simd, first - columns.start)).into();
             for (column, new) in (first..columns.end).zip(new) {
@@ -67,22 +56,6 @@ impl Cutting<'_> {
                 self.cut.depth = self.cut.depth.max(taken);
             }
         }
-    }
-
-    /// As [`Cells::row`], of the last cells of the map, which are too few for a whole group.
-    fn last_row<S: Simd>(&mut self, simd: S, begin: usize, count: usize, surface: impl Surface) {
-        let (heights, last) =
-            (&mut self.map.heights[begin..begin + count], &mut self.map.last[begin..begin + count]);
-        let (mut sums, number) = (Sums::new(simd), u32x8::splat(simd, self.number));
-        for (n, (heights, last)) in heights.chunks_mut(LANES).zip(last.chunks_mut(LANES)).enumerate() {
-            let (mut few, mut of) = ([HeightMap::NOTHING; LANES], [0; LANES]);
-            few[..heights.len()].copy_from_slice(heights);
-            of[..last.len()].copy_from_slice(last);
-            sums.lower(&mut few, &mut of, surface.at(indices(simd, n * LANES)), number);
-            heights.copy_from_slice(&few[..heights.len()]);
-            last.copy_from_slice(&of[..last.len()]);
-        }
-        self.end(sums);
     }
 }
 
@@ -145,21 +118,21 @@ impl Cells for Cutting<'_> {
         columns: Range<usize>,
         (surface, least): (impl Surface, f32),
     ) -> Sums<S> {
-        let begin = row * self.map.grid.cells[0] + columns.start;
+        if self.has_hollows {
+            self.row_with_hollows(simd, row, columns, surface);
+            return sums;
+        }
+        let begin = self.map.grid.index([columns.start, row]);
         // No `Range::len`, which asks whether the range is the wrong way round.
         let count = columns.end - columns.start;
         let whole = begin..begin + count.next_multiple_of(LANES);
-        let heights = if self.has_hollows { None } else { self.map.heights.get_mut(whole.clone()) };
-        let Some(heights) = heights else {
-            self.odd_row(simd, row, columns, surface);
-            return sums;
-        };
-        let last = &mut self.map.last[whole];
+        let heights = self.map.heights.get_mut(whole.clone());
+        let (Some(heights), Some(last)) = (heights, self.map.last.get_mut(whole)) else { return sums };
         let (count, mut at, number) =
             (count as i32 as f32, indices(simd, 0), u32x8::splat(simd, self.number));
         for (heights, last) in heights.as_chunks_mut().0.iter_mut().zip(last.as_chunks_mut().0) {
             // Most of what a tool goes over is cut already: the surface is looked at where it may be lower. Cells behind the
-            // last one are those of the next row, and stay.
+            // last one stay.
             if f32x8::simd_from(simd, *heights).simd_gt(least).any_true() {
                 let new = at.simd_lt(count).select(surface.at(at), endless(simd));
                 sums.lower(heights, last, new, number);
@@ -178,8 +151,8 @@ impl Cells for Cutting<'_> {
         at: Across,
         along: W,
     ) -> Sums<S> {
-        let width = self.map.grid.cells[0];
-        if self.has_hollows || !columns.len().is_multiple_of(LANES) {
+        let grid = self.map.grid;
+        if self.has_hollows {
             for row in rows.clone() {
                 let surface = Row { at: at.shifted(row - rows.start, 0), along };
                 sums = self.row(sums, simd, row, columns.clone(), (surface, f32::NEG_INFINITY));
@@ -189,12 +162,19 @@ impl Cells for Cutting<'_> {
         let least = along.least(f32x8::splat(simd, 0.0));
         let number = u32x8::splat(simd, self.number);
         // From the first cell of a box to its last. Both slices are as long, so that one test is enough.
-        let (begin, count) = (rows.start * width + columns.start, columns.end - columns.start);
-        let all = begin..begin + (rows.end - rows.start - 1) * width + count;
+        let (begin, count) = (grid.index([columns.start, rows.start]), columns.end - columns.start);
+        let all = begin..begin + (rows.end - rows.start - 1) * grid.pitch() + count;
         let heights = self.map.heights.get_mut(all.clone());
         let (Some(heights), Some(last)) = (heights, self.map.last.get_mut(all)) else { return sums };
         let (mut row_s, mut row_d) = at.of(indices(simd, 0));
         let (mut row, steps) = (0, [at.ds * LANES as f32, at.dd * LANES as f32]);
+        if count == LANES {
+            while let (Some(heights), Some(last)) = (group(heights, row), group(last, row)) {
+                sums.lower(heights, last, along.over(row_s, row_d), number);
+                (row_s, row_d, row) = (row_s - at.dd, row_d + at.ds, row + grid.pitch());
+            }
+            return sums;
+        }
         while let (Some(heights), Some(last)) =
             (heights.get_mut(row..row + count), last.get_mut(row..row + count))
         {
@@ -205,7 +185,7 @@ impl Cells for Cutting<'_> {
                 }
                 (s, d) = (s + steps[0], d + steps[1]);
             }
-            (row_s, row_d, row) = (row_s - at.dd, row_d + at.ds, row + width);
+            (row_s, row_d, row) = (row_s - at.dd, row_d + at.ds, row + grid.pitch());
         }
         sums
     }
@@ -220,6 +200,12 @@ impl Cells for Cutting<'_> {
         self.cut.heights += f64::from(volumes.into_iter().sum::<f32>());
         self.cut.depth = depths.into_iter().fold(self.cut.depth, greater);
     }
+}
+
+/// The cells of a group that begins here; none where fewer are left.
+#[inline(always)]
+fn group<T>(cells: &mut [T], first: usize) -> Option<&mut [T; LANES]> {
+    cells.get_mut(first..)?.first_chunk_mut()
 }
 
 /// The greater of two numbers: none of them is no number, which `f32::max` must ask.
@@ -260,7 +246,7 @@ impl Cells for Probing<'_> {
         columns: Range<usize>,
         (surface, _least): (impl Surface, f32),
     ) {
-        let (grid, start) = (self.map.grid, row * self.map.grid.cells[0]);
+        let (grid, start) = (self.map.grid, self.map.grid.index([0, row]));
         for first in columns.clone().step_by(LANES) {
             let tools: [f32; LANES] = surface.at(indices(simd, first - columns.start)).into();
             for (column, tool) in (first..columns.end).zip(tools) {

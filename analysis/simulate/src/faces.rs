@@ -3,7 +3,7 @@
 //! The part is made of upright blocks there, one a cell. Faces of neighbours in one plane are joined.
 
 use crate::hollows::without;
-use crate::map::HeightMap;
+use crate::map::{Grid, HeightMap};
 
 /// How far from a hollow the part is made of blocks, cells. A picture draws the upper surface from point to point, these up to
 /// four cells apart; a wall between two such points must not close a hollow.
@@ -31,7 +31,7 @@ pub enum Side {
 /// along X.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Face {
-    /// The first cell of the row.
+    /// The first cell of the row, by [`Grid::index`].
     pub cell: u32,
     /// Its direction.
     pub side: Side,
@@ -41,7 +41,7 @@ pub struct Face {
     pub between: [f32; 2],
 }
 
-/// The cells, row by row, of which [`faces`] has the surface: all near a hollow. Empty of a part without hollows.
+/// The cells, by [`Grid::index`], of which [`faces`] has the surface: all near a hollow. Empty of a part without hollows.
 pub fn covered(map: &HeightMap) -> Vec<bool> {
     if map.hollows.is_empty() {
         return Vec::new();
@@ -50,9 +50,10 @@ pub fn covered(map: &HeightMap) -> Vec<bool> {
     let mut all = vec![false; map.grid.len()];
     for (cell, _) in map.hollows.iter() {
         let near = |at: usize, cells: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(cells);
-        for row in near(cell / width, height) {
-            let columns = near(cell % width, width);
-            all[row * width + columns.start..row * width + columns.end].fill(true);
+        let [column, row] = map.grid.place(cell);
+        for row in near(row, height) {
+            let columns = near(column, width);
+            all[map.grid.index([columns.start, row])..map.grid.index([columns.end, row])].fill(true);
         }
     }
     all
@@ -66,9 +67,9 @@ pub fn faces(map: &HeightMap, covered: &[bool], level: f32) -> Vec<Face> {
     if covered.is_empty() {
         return all;
     }
-    let is_covered = |[column, row]: [usize; 2]| covered[row * width + column];
-    let material = |[column, row]: [usize; 2]| map.material(row * width + column, level);
-    let mut rows = Rows { width, open: Vec::new(), all: &mut all };
+    let is_covered = |at: [usize; 2]| covered[map.grid.index(at)];
+    let material = |at: [usize; 2]| map.material(map.grid.index(at), level);
+    let mut rows = Rows { grid: map.grid, open: Vec::new(), all: &mut all };
     for row in 0..height {
         for column in (0..width).filter(|column| is_covered([*column, row])) {
             let own = material([column, row]);
@@ -116,7 +117,7 @@ fn borders(map: &HeightMap, covered: &[bool], level: f32, rows: &mut Rows) {
     let [width, height] = map.grid.cells;
     let mut side = |side: Side, cells: &mut dyn Iterator<Item = [usize; 2]>| {
         for [column, row] in cells {
-            let cell = row * width + column;
+            let cell = map.grid.index([column, row]);
             if covered[cell] {
                 map.material(cell, level).into_iter().for_each(|wall| rows.add([column, row], side, wall));
             }
@@ -131,7 +132,7 @@ fn borders(map: &HeightMap, covered: &[bool], level: f32, rows: &mut Rows) {
 
 /// Makes long faces of short ones.
 struct Rows<'a> {
-    width: usize,
+    grid: Grid,
     /// Those that the next cell may go on with.
     open: Vec<Face>,
     all: &'a mut Vec<Face>,
@@ -139,9 +140,9 @@ struct Rows<'a> {
 
 impl Rows<'_> {
     fn add(&mut self, [column, row]: [usize; 2], side: Side, between: [f32; 2]) {
-        let cell = row * self.width + column;
+        let cell = self.grid.index([column, row]);
         let step = match side {
-            Side::Right | Side::Left => self.width,
+            Side::Right | Side::Left => self.grid.pitch(),
             Side::Up | Side::Down | Side::Front | Side::Back => 1,
         };
         let goes_on = |face: &&mut Face| {

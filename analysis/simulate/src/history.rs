@@ -190,8 +190,10 @@ impl History {
             return;
         }
         let [rows, columns] = [rows, columns].map(|own| own.start / TILE..own.end.div_ceil(TILE));
+        // Whole groups of cells may go beyond the last tile.
+        let marked = columns.start..columns.end.min(self.across);
         for row in rows.clone() {
-            self.dirty[row * self.across..][columns.clone()].fill(true);
+            self.dirty[row * self.across..][marked.clone()].fill(true);
         }
         self.marked = [rows, columns].map(|own| own.start * TILE..own.end * TILE);
     }
@@ -255,7 +257,7 @@ impl History {
     /// Shows the cells of tiles that may have changed, row by row; after that none may.
     #[inline(always)]
     fn each_dirty(&mut self, mut shown: impl FnMut(&mut HeightMap, std::ops::Range<usize>)) {
-        let [width, height] = self.base.grid.cells;
+        let (grid, [width, height]) = (self.base.grid, self.base.grid.cells);
         self.marked = NONE;
         for tile in 0..self.dirty.len() {
             if !std::mem::replace(&mut self.dirty[tile], false) {
@@ -263,7 +265,7 @@ impl History {
             }
             let [column, row] = [tile % self.across * TILE, tile / self.across * TILE];
             for row in row..(row + TILE).min(height) {
-                let start = row * width;
+                let start = grid.index([0, row]);
                 shown(&mut self.base, start + column..start + (column + TILE).min(width));
             }
         }

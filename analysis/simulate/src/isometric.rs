@@ -92,7 +92,7 @@ impl<'m> Isometric<'m> {
         let u = self.line(column);
         let mut drawn = 0.0_f64;
         for (step, Place { column: i, row: j, ground }) in self.places(u).enumerate() {
-            let own = j * map.grid.cells[0] + i;
+            let own = map.grid.index([i, j]);
             let stands = f64::from(map.heights[own].max(level)) - f64::from(level);
             let seen = ground + stands;
             // The first cell shows a wall of the part down to the level.
@@ -112,12 +112,11 @@ impl<'m> Isometric<'m> {
     /// Draws a column of pixels of a part with hollows: a piece of material hides only the pixels that it covers.
     fn material_behind(&mut self, column: usize) {
         let (map, level) = (self.map, self.level);
-        let width = map.grid.cells[0];
         let mut hidden = vec![false; self.picture.height];
         let (mut last, mut material) = (None, Vec::new());
         for Place { column: i, row: j, ground } in self.places(self.line(column)) {
-            let own = j * width + i;
-            let before = [(i > 0).then(|| own - 1), (j > 0).then(|| own - width)];
+            let own = map.grid.index([i, j]);
+            let before = [(i > 0).then(|| own - 1), (j > 0).then(|| map.grid.index([i, j - 1]))];
             // By which sides the line comes into the cell.
             let sides = match last.replace([i, j]) {
                 Some(last) if last == [i, j] => 0..0,

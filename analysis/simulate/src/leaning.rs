@@ -130,7 +130,7 @@ fn one(grid: Grid, leg: &Leg, part: &Convex, [floor, top]: [f64; 2], shown: &mut
                 && low < top
                 && high > floor
             {
-                shown(row * grid.cells[0] + column, [low.max(floor) as f32, high as f32]);
+                shown(grid.index([column, row]), [low.max(floor) as f32, high as f32]);
             }
         }
     }

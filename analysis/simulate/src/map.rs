@@ -1,6 +1,7 @@
 //! Heights of material over a grid of square cells.
 
 use crate::hollows::Hollows;
+use crate::surface::LANES;
 
 /// Where the cells of a map are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +14,8 @@ pub struct Grid {
     pub cells: [usize; 2],
     /// Cells a mm.
     per_mm: f64,
+    /// Cells of a map from the begin of a row to that of the next.
+    pitch: usize,
 }
 
 impl Grid {
@@ -25,7 +28,37 @@ impl Grid {
         let sides = [0, 1].map(|axis| (high[axis] - low[axis]).max(1e-6));
         let cell = sides[0].max(sides[1]) / most.max(1) as f64;
         let cells = sides.map(|side| ((side / cell - 1e-9).ceil() as usize).clamp(1, most.max(1)));
-        Grid { low, cell, cells, per_mm: 1.0 / cell }
+        Grid { low, cell, cells, per_mm: 1.0 / cell, pitch: pitch(cells[0]) }
+    }
+
+    /// The index in a map of the cell in a column and a row.
+    #[inline(always)]
+    pub fn index(&self, [column, row]: [usize; 2]) -> usize {
+        row * self.pitch + column
+    }
+
+    /// Column and row of the cell with this index in a map.
+    #[inline]
+    pub fn place(&self, cell: usize) -> [usize; 2] {
+        [cell % self.pitch, cell / self.pitch]
+    }
+
+    /// Centre of the cell with this index in a map, X Y in mm.
+    pub fn centre_of(&self, cell: usize) -> [f64; 2] {
+        let [column, row] = self.place(cell);
+        [self.centre(0, column), self.centre(1, row)]
+    }
+
+    /// Indices in a map of the cells of each row, the row of the least Y first.
+    pub fn rows(&self) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
+        let Grid { cells: [columns, rows], pitch, .. } = *self;
+        (0..rows).map(move |row| row * pitch..row * pitch + columns)
+    }
+
+    /// Cells of a map from the begin of a row to that of the next.
+    #[inline(always)]
+    pub(crate) fn pitch(&self) -> usize {
+        self.pitch
     }
 
     /// Centre of a cell along an axis, mm.
@@ -76,15 +109,23 @@ impl Grid {
         Some([cell(0, x)?, cell(1, y)?])
     }
 
-    /// How many cells there are.
+    /// How many numbers a map holds: those of the cells, and of what lies between their rows.
     pub fn len(&self) -> usize {
-        self.cells[0] * self.cells[1]
+        self.pitch * self.cells[1]
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+}
+
+/// Cells from row to row, where so many are used: eight of any of them are in one row. Rows begin an odd number of
+/// cache lines apart. Rows of 1024 cells would all share one of 64 sets of lines, which holds eight: cutting takes up to a half longer.
+fn pitch(cells: usize) -> usize {
+    /// Cells of a cache line of 64 bytes.
+    const LINE: usize = 16;
+    (cells + LANES - 1).next_multiple_of(LINE) | LINE
 }
 
 /// Side of the tiles of a map by which changes are noted, cells.
@@ -95,8 +136,8 @@ pub(crate) const TILE: usize = 64;
 pub struct HeightMap {
     /// Where its cells are.
     pub grid: Grid,
-    /// Heights, mm, in workpiece coordinates: rows of one Y, the least Y first. [`HeightMap::NOTHING`] where there is no
-    /// material.
+    /// Heights, mm, in workpiece coordinates, by [`Grid::index`]. [`HeightMap::NOTHING`] where there is no material, and
+    /// between the rows of cells.
     pub heights: Vec<f32>,
     /// Number of the move that made the height, counted from 1; 0 where none did.
     pub last: Vec<u32>,
@@ -129,18 +170,14 @@ impl HeightMap {
 
     /// A map with one height.
     pub fn flat(grid: Grid, height: f32) -> HeightMap {
-        HeightMap {
-            grid,
-            heights: vec![height; grid.len()],
-            last: vec![0; grid.len()],
-            hollows: Hollows::default(),
-        }
+        let mut heights = vec![HeightMap::NOTHING; grid.len()];
+        grid.rows().for_each(|row| heights[row].fill(height));
+        HeightMap { grid, heights, last: vec![0; grid.len()], hollows: Hollows::default() }
     }
 
     /// The height at a place; `None` outside.
     pub fn height_at(&self, x: f64, y: f64) -> Option<f32> {
-        let [column, row] = self.grid.cell_at(x, y)?;
-        self.heights.get(row * self.grid.cells[0] + column).copied()
+        self.heights.get(self.grid.index(self.grid.cell_at(x, y)?)).copied()
     }
 
     /// The greatest height; [`HeightMap::NOTHING`] of a map without material.

@@ -30,7 +30,7 @@ pub fn rasterise(triangles: &[Triangle], map: &mut HeightMap) {
                 // A centre on a shared edge belongs to both triangles.
                 if of_a.min(of_b).min(of_c) >= -1e-9 {
                     let height = (of_a * a[2] + of_b * b[2] + of_c * c[2]) as f32;
-                    let own = &mut map.heights[row * grid.cells[0] + column];
+                    let own = &mut map.heights[grid.index([column, row])];
                     *own = own.max(height);
                 }
             }
@@ -70,7 +70,7 @@ pub fn mesh(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(T
         };
         (map.grid.centre(axis, all[n]) + off) as f32
     };
-    let top = |i: usize, j: usize| map.heights[rows[j] * width + columns[i]].max(level);
+    let top = |i: usize, j: usize| map.heights[map.grid.index([columns[i], rows[j]])].max(level);
     let corner = |i: usize, j: usize, z: f32| [along(0, &columns, i), along(1, &rows, j), z];
     let solid = |i: usize, j: usize| {
         i + 1 < columns.len()
@@ -118,7 +118,7 @@ fn blocks(map: &HeightMap, level: f32, step: usize, triangle: &mut dyn FnMut(Tri
     let [columns, rows] = [width.div_ceil(step), height.div_ceil(step)];
     // The middle cell gives the material of a block.
     let middle = |n: usize, cells: usize| (n * step + step / 2).min(cells - 1);
-    let of = |i: usize, j: usize| map.material(middle(j, height) * width + middle(i, width), level);
+    let of = |i: usize, j: usize| map.material(map.grid.index([middle(i, width), middle(j, height)]), level);
     let place = |axis: usize, n: usize, cells: usize| {
         (map.grid.low[axis] + (n * step).min(cells) as f64 * map.grid.cell) as f32
     };

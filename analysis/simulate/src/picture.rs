@@ -30,7 +30,7 @@ fn plan(map: &HeightMap, level: f32, most: usize, tool: &dyn Fn(u32) -> usize) -
         let row = (y * rows / height).min(rows - 1);
         for x in 0..width {
             let column = (x * columns / width).min(columns - 1);
-            let cell = row * columns + column;
+            let cell = map.grid.index([column, row]);
             let pixel = match map.heights[cell] > level {
                 true => shaded(colour(map.last[cell], tool), light(rise(map, level, column, row))),
                 false => [0; 4],

@@ -66,7 +66,7 @@ pub(crate) fn rise(map: &HeightMap, level: f32, column: usize, row: usize) -> [f
     let [cx, cy] = [middle(&columns), middle(&rows)];
     for j in rows {
         for i in columns.clone() {
-            let z = f64::from(map.heights[j * width + i].max(level));
+            let z = f64::from(map.heights[map.grid.index([i, j])].max(level));
             let off = [i as f64 - cx, j as f64 - cy];
             for axis in 0..2 {
                 weights[axis] += off[axis] * off[axis];

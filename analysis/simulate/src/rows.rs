@@ -44,7 +44,7 @@ pub(crate) struct Done {
 
 impl Done {
     /// No cells.
-    pub(crate) const NONE: Done = Done { along: f32::NEG_INFINITY, around: -1.0 };
+    pub(crate) const NONE: Done = Done { along: f32::MIN, around: -1.0 };
 }
 
 impl Rows {
@@ -99,7 +99,8 @@ impl Rows {
     #[inline(always)]
     pub(crate) fn touched<S: Simd>(&self, simd: S, row: usize, done: Done) -> [[i32x8<S>; 2]; 2] {
         let [mut low, mut high] = self.reach(simd, row);
-        if done.along > f32::NEG_INFINITY {
+        // Where all is done around the start, cells on the other side of it are, too.
+        if done.along > f32::MIN && done.around < self.radius {
             [low, high] = self.beyond(simd, row, [low, high], done.along);
         }
         let (first, end) = (self.place(low, -BORDER), self.place(high, BORDER));

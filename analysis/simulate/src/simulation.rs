@@ -199,7 +199,10 @@ impl Simulation {
     #[inline(always)]
     fn start(&self, at: usize, own: &Move) -> ([f64; 3], bool) {
         match at.checked_sub(1).and_then(|at| self.moves.get(at)) {
-            Some(last) => (last.end, last.tool == own.tool && last.way != Way::Away),
+            Some(last) => {
+                let is_as_before = last.tool == own.tool && last.tilt == own.tilt;
+                (last.end, is_as_before && last.way != Way::Away)
+            }
             None => (self.setup.start, false),
         }
     }
@@ -373,11 +376,12 @@ impl Simulation {
 
     /// A place that a move has cut.
     fn where_cut(&self, number: u32, cut: &Cut) -> Option<[f64; 3]> {
-        let (grid, width) = (self.map.grid, self.map.grid.cells[0]);
+        let grid = self.map.grid;
         cut.rows.clone().find_map(|row| {
             let last = |cell: usize| [self.map.last[cell], self.map.hollows.last(cell)];
-            let column = cut.columns.clone().find(|column| last(row * width + column).contains(&number))?;
-            let cell = row * width + column;
+            let is_of = |column: &usize| last(grid.index([*column, row])).contains(&number);
+            let column = cut.columns.clone().find(is_of)?;
+            let cell = grid.index([column, row]);
             let under = self.map.hollows.of(cell).first().filter(|_| self.map.last[cell] != number);
             let height = f64::from(under.map_or(self.map.heights[cell], |own| own[0]));
             Some([grid.centre(0, column), grid.centre(1, row), height])

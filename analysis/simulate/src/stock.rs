@@ -82,7 +82,7 @@ impl Stock {
 }
 
 fn raise(map: &mut HeightMap, row: usize, columns: std::ops::Range<usize>, height: f64) {
-    let start = row * map.grid.cells[0];
+    let start = map.grid.index([0, row]);
     for own in &mut map.heights[start + columns.start..start + columns.end] {
         *own = own.max(height as f32);
     }

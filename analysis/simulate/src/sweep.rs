@@ -100,11 +100,19 @@ pub(crate) fn chords(
     })
 }
 
+#[inline(always)]
 fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [&[f64; 3]; 2], continues: bool) {
     let length = distance([from[0], from[1]], [to[0], to[1]]);
-    if length <= PIECE {
-        return piece(cells, cutter, [from, to], length, continues);
+    match length <= PIECE {
+        true => piece(cells, cutter, [from, to], length, continues),
+        false => long(cells, cutter, [from, to], length, continues),
     }
+}
+
+/// A line in pieces.
+#[cold]
+#[inline(never)]
+fn long(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [&[f64; 3]; 2], length: f64, continues: bool) {
     let pieces = (length / PIECE).ceil().min(1e6);
     let mut last = *from;
     for i in 1..=pieces as usize {
@@ -116,7 +124,7 @@ fn straight(cells: &mut impl Cells, cutter: &Cutter, [from, to]: [&[f64; 3]; 2],
     }
 }
 
-#[inline]
+#[inline(always)]
 fn piece(cells: &mut impl Cells, cutter: &Cutter, ends: [&[f64; 3]; 2], length: f64, continues: bool) {
     let line = Line::new(ends, length, continues);
     for band in cutter.bands() {
@@ -136,8 +144,11 @@ impl Line {
         // Uphill, the tool has cut the cells beside and behind the start already: it comes no lower there.
         let rise = self.rise as f32;
         let is_cut = self.continues && rise >= 0.0;
-        let around = |radius: f64| Done { around: if is_cut { radius as f32 } else { -1.0 }, ..Done::NONE };
-        let done = if is_cut { Done { along: 0.0, ..Done::NONE } } else { Done::NONE };
+        let around = |radius: f64| match is_cut {
+            true => Done { along: 0.0, around: radius as f32 },
+            false => Done::NONE,
+        };
+        let done = Done { around: -1.0, ..around(0.0) };
         let is_level = rise == 0.0;
         match band.form {
             Form::Flat if is_level => self.rows::<Level>(cells, band, around(band.outer)),
@@ -148,17 +159,35 @@ impl Line {
             Form::Round(radius) if band.inner == 0.0 => {
                 // Downhill, a ball comes lowest over cells that are behind its tip, so far at most.
                 let behind = radius as f32 * Ball::ahead(rise).min(0.0);
-                let along = if self.continues { behind } else { f32::NEG_INFINITY };
+                let along = if self.continues { behind } else { f32::MIN };
                 self.rows::<Ball>(cells, band, Done { along, ..Done::NONE });
             }
             Form::Round(_) => {
-                let done = Done { around: around(band.inner).around, ..done };
+                let done = around(band.inner);
                 match is_level {
                     true => self.rows::<LevelRound>(cells, band, done),
                     false => self.rows::<SlopedRound>(cells, band, done),
                 }
             }
             Form::Cone(_) => self.rows::<Cone>(cells, band, done),
+        }
+    }
+
+    /// From and to where along X or Y a band of this radius touches cells that are more than `done` along the line.
+    ///
+    /// ```text
+    ///        ╭────┬─────╮
+    ///   ( ···│ ───│──▶  │ )     the box begins beside the place that is `done`, not a radius before it
+    ///        ╰────┴─────╯
+    /// ```
+    #[inline(always)]
+    fn reach(&self, axis: usize, radius: f64, done: f64) -> [f64; 2] {
+        let (from, to, along, across) =
+            (self.from[axis], self.to[axis], self.along[axis], self.along[1 - axis].abs());
+        let begin = least(radius, radius * across - done + BESIDE);
+        match along > 0.0 {
+            true => [from - begin, to + radius],
+            false => [to - radius, from + begin],
         }
     }
 
@@ -173,13 +202,20 @@ impl Line {
     fn rows_by<S: Simd, C: Cells, W: Along>(&self, simd: S, cells: &mut C, band: &Band, done: Done) {
         let (grid, radius, along) = (cells.grid(), band.outer, W::of(self, band));
         let [[x0, y0, _], [x1, y1, _]] = [self.from, self.to];
-        let columns = grid.about(0, least(x0, x1) - radius, most(x0, x1) + radius);
-        let rows = grid.about(1, least(y0, y1) - radius, most(y0, y1) + radius);
+        let [mut left, mut right] = [least(x0, x1) - radius, most(x0, x1) + radius];
+        let [mut front, mut back] = [least(y0, y1) - radius, most(y0, y1) + radius];
+        let (width, cells_wide) = (right - left, |cells: usize| cells as f64 * grid.cell);
+        let narrow = C::TAKES_NARROW && width <= cells_wide(W::NARROW);
+        // Of a few cells, all are worked on sooner than it is known which ones. In wide boxes they are passed over row by row.
+        if narrow && done.along > f32::MIN && width > cells_wide(2 * LANES) {
+            [left, right] = self.reach(0, radius, f64::from(done.along));
+            [front, back] = self.reach(1, radius, f64::from(done.along));
+        }
+        let (columns, rows) = (grid.about(0, left, right), grid.about(1, front, back));
         if columns.is_empty() || rows.is_empty() {
             return;
         }
-        let narrow = C::TAKES_NARROW && columns.end - columns.start <= W::NARROW;
-        let columns = if narrow { whole_groups(columns, grid.cells[0]) } else { columns };
+        let columns = if narrow { whole_groups(columns, grid.pitch()) } else { columns };
         let mut sums = cells.begin(simd, &rows, &columns);
         let cell = grid.cell as f32;
         let first = [grid.centre(0, columns.start) - self.from[0], grid.centre(1, rows.start) - self.from[1]];
@@ -246,13 +282,17 @@ impl Run {
     }
 }
 
+/// So much more than is not done is looked at, mm: cells on the border between both would be lost by rounding.
+const BESIDE: f64 = 1e-5;
+
 /// Radius of a wide tool, in cells.
 const WIDE: f64 = 6.0;
 
-/// Some more columns, so that none of them is left where they are worked on in groups.
-fn whole_groups(columns: Range<usize>, all: usize) -> Range<usize> {
-    let count = columns.len().next_multiple_of(LANES).min(all);
-    let start = columns.start.min(all - count);
+/// Some more columns, so that these are whole groups; all of them in the rows of a map.
+#[inline(always)]
+fn whole_groups(columns: Range<usize>, pitch: usize) -> Range<usize> {
+    let count = (columns.end - columns.start).next_multiple_of(LANES);
+    let start = columns.start.min(pitch - count);
     start..start + count
 }
 

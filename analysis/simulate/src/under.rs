@@ -45,7 +45,7 @@ fn one(grid: Grid, cutter: &Cutter, ends: [[f64; 3]; 2], way: &Way, shown: &mut 
     debug_assert_eq!(low.heights.len(), high.heights.len(), "both surfaces reach as far");
     for (n, (low_at, high_at)) in low.heights.iter().zip(&high.heights).enumerate() {
         let [row, column] = [n / low.columns.len(), n % low.columns.len()];
-        let cell = (low.rows.start + row) * grid.cells[0] + low.columns.start + column;
+        let cell = grid.index([low.columns.start + column, low.rows.start + row]);
         if low_at.is_finite() && high_at.is_finite() {
             shown(cell, [*low_at, -high_at]);
         }

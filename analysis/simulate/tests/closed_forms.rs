@@ -46,7 +46,7 @@ fn holds(map: &HeightMap, height: impl Fn(f64, f64) -> Option<f64>) {
         for column in 0..width {
             let (x, y) = (map.grid.centre(0, column), map.grid.centre(1, row));
             let Some(expected) = height(x, y) else { continue };
-            let found = f64::from(map.heights[row * width + column]);
+            let found = f64::from(map.heights[map.grid.index([column, row])]);
             assert!((found - expected).abs() <= MICRON, "X{x} Y{y}: {found}, not {expected}");
         }
     }
@@ -139,7 +139,7 @@ fn scallops_of_a_ball() {
         })
     });
     for row in 60..240 {
-        highest = highest.max(f64::from(done.map().heights[row * done.map().grid.cells[0] + 200]));
+        highest = highest.max(f64::from(done.map().heights[done.map().grid.index([200, row])]));
     }
     // The top of a scallop lies between cells: its slope there, over half a cell.
     let slope = step / 2.0 / (radius * radius - step * step / 4.0_f64).sqrt();
@@ -249,6 +249,29 @@ fn a_wider_tool_goes_on_where_another_one_stood() {
             _ => None,
         }
     });
+}
+
+/// What lies between the rows of cells in memory is no material, and stays so.
+#[test]
+fn cuts_beyond_the_border_stay_in_their_row() {
+    for cells in [9, 10, 15, 16, 17, 100, 400] {
+        let mut done = Simulation::new(Setup { cells, ..setup(tool(&Shape::Flat, 12.0)) });
+        done.push(go(Way::Rapid, [38.0, -10.0, 10.0]));
+        done.push(go(Way::Feed, [38.0, -10.0, -5.0]));
+        done.push(go(Way::Feed, [38.0, 33.0, -5.0]));
+        done.push(go(Way::Feed, [43.0, 15.0, -5.0]));
+        let map = done.map();
+        let rows: Vec<usize> = map.grid.rows().flatten().collect();
+        assert_eq!(rows.len(), map.grid.cells[0] * map.grid.cells[1]);
+        for cell in (0..map.grid.len()).filter(|cell| rows.binary_search(cell).is_err()) {
+            assert_eq!((map.heights[cell], map.last[cell]), (HeightMap::NOTHING, 0));
+        }
+        holds(map, |x, y| match y < 30.0 {
+            true if x < 31.9 => Some(0.0),
+            true if x > 32.1 => Some(-5.0),
+            _ => None,
+        });
+    }
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! The surface of a sweep against the tool itself, put to many places of the way: what is computed in closed form must be
 //! the lowest of them.
 
+use std::f64::consts::FRAC_PI_2;
+
 use ncc_simulate::{Cutter, Move, Setup, Shape, Simulation, Stock, Tool, Way};
 use proptest::prelude::*;
 
@@ -65,7 +67,7 @@ fn judge(shape: &Shape, diameter: f64, from: [f64; 3], own: Move) -> Result<(), 
     for row in 0..grid.cells[1] {
         for column in 0..grid.cells[0] {
             let (x, y) = (grid.centre(0, column), grid.centre(1, row));
-            let found = f64::from(simulation.map().heights[row * grid.cells[0] + column]);
+            let found = f64::from(simulation.map().heights[grid.index([column, row])]);
             let [high, low] = [0.000_5, -0.000_5].map(|off| {
                 lowest(|part| {
                     let at = place(from, &own, part);
@@ -127,6 +129,36 @@ fn heights(shape: &Shape, diameter: f64, from: [f64; 3], moves: impl Iterator<It
     simulation.map().heights.clone()
 }
 
+/// Steps of a few cells in all directions, each level or upwards, now and then from a new place: what the steps before have cut
+/// is left out, and nothing else.
+#[test]
+fn short_steps_go_on_where_the_last_one_ended() {
+    let mut rng = fastrand::Rng::with_seed(11);
+    let shapes =
+        [Shape::Flat, Shape::Ball, Shape::BullNose { corner: 0.8 }, Shape::Chamfer { tip: 1.0, angle: 90.0 }];
+    for (n, shape) in shapes.iter().cycle().take(160).enumerate() {
+        let diameter = 2.0 + (n % 16) as f64 * 0.4;
+        let (mut at, mut on) = ([10.0, 10.0, 30.0], Vec::new());
+        for step in 0..12 {
+            let [x, y, z] = at;
+            let angle = if rng.bool() { rng.f64() * 6.3 } else { f64::from(rng.u8(..4)) * FRAC_PI_2 };
+            let by = rng.f64() * 0.9;
+            let up = if rng.bool() { 0.0 } else { rng.f64() * 0.2 };
+            at = match step % 6 {
+                0 => [4.0 + rng.f64() * 12.0, 4.0 + rng.f64() * 12.0, 20.0 * rng.f64()],
+                _ => [x + by * angle.cos(), y + by * angle.sin(), z + up],
+            };
+            on.push(Move { way: Way::Feed, end: at, tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 });
+        }
+        let stops = on.iter().flat_map(|own| [*own, Move { way: Way::Away, ..*own }]);
+        let from = [on[0].end[0], on[0].end[1], 30.0];
+        let one = heights(shape, diameter, from, on.iter().copied());
+        let other = heights(shape, diameter, from, stops);
+        let off = one.iter().zip(&other).filter(|(one, other)| (*one - *other).abs() > 0.000_1).count();
+        assert!(off <= 2, "{shape:?} of {diameter}: {off} cells differ");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -140,12 +172,19 @@ proptest! {
     #[test]
     fn what_a_move_goes_on_from_changes_nothing(
         (shape, diameter) in shapes(),
-        places in prop::collection::vec(([1.0..19.0_f64, 1.0..19.0_f64], prop_oneof![Just(3.0), 0.0..8.0_f64]), 2..8),
+        // Far away, or by less than a mm.
+        places in prop::collection::vec(
+            ([1.0..19.0_f64, 1.0..19.0_f64], prop_oneof![Just(3.0), 0.0..8.0_f64], prop::bool::weighted(0.8)),
+            2..16,
+        ),
     ) {
-        let go = |way, ([x, y], z): ([f64; 2], f64)| Move { way, end: [x, y, z], tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 };
-        let on: Vec<Move> = places.iter().map(|at| go(Way::Feed, *at)).collect();
+        let mut at = [10.0; 2];
+        let on: Vec<Move> = places.iter().map(|(place, z, is_near)| {
+            at = if *is_near { [0, 1].map(|axis| at[axis] + (place[axis] - 10.0) * 0.1) } else { *place };
+            Move { way: Way::Feed, end: [at[0], at[1], *z], tool: 0, tilt: 0, turns: true, time: 0.0, line: 0 }
+        }).collect();
         let stops = on.iter().flat_map(|own| [*own, Move { way: Way::Away, ..*own }]);
-        let from = [places[0].0[0], places[0].0[1], 30.0];
+        let from = [on[0].end[0], on[0].end[1], 30.0];
         let [one, other] = [heights(&shape, diameter, from, on.iter().copied()), heights(&shape, diameter, from, stops)];
         // A cell on the very border of the tool may be cut by one of them only.
         let off = one.iter().zip(&other).filter(|(one, other)| (*one - *other).abs() > 0.000_1).count();

@@ -56,12 +56,12 @@ fn kinds(simulation: &Simulation) -> Vec<AlarmKind> {
 
 /// Shows each cell: its centre and the spaces in the block over it, the lowest first.
 fn each(map: &HeightMap, mut shown: impl FnMut([f64; 2], Vec<[f64; 2]>)) {
-    let width = map.grid.cells[0];
-    for (cell, height) in map.heights.iter().enumerate() {
+    for cell in map.grid.rows().flatten() {
+        let height = map.heights[cell];
         let own = map.hollows.of(cell).iter().map(|own| own.map(f64::from));
-        let open = (*height < 0.0).then_some([f64::from(*height), 0.0]);
+        let open = (height < 0.0).then_some([f64::from(height), 0.0]);
         let spaces = own.chain(open).collect();
-        shown([map.grid.centre(0, cell % width), map.grid.centre(1, cell / width)], spaces);
+        shown(map.grid.centre_of(cell), spaces);
     }
 }
 
@@ -124,7 +124,7 @@ fn a_leaning_hole() {
     // Straight above the tip it is as high as the tool is there: the wall.
     let wall = 3.0 / 30.0_f64.to_radians().sin();
     let at = done.map().grid.cell_at(20.05, 20.05).expect("a cell");
-    let spaces = done.map().material(at[1] * 200 + at[0], -20.0);
+    let spaces = done.map().material(done.map().grid.index(at), -20.0);
     // The centre of that cell is 0.1 mm off along X and Y.
     assert!(
         (f64::from(spaces[0][1]) + 13.0).abs() < 0.3 && (f64::from(spaces[1][0]) + 13.0 - wall).abs() < 0.3
@@ -190,8 +190,23 @@ fn a_ball_that_leans() {
         leaning.push(go(Way::Feed, tip(*at), 1));
     }
     assert!(leaning.map().hollows.is_empty() && removed(&leaning) > 200.0);
-    for (one, other) in upright.map().heights.iter().zip(&leaning.map().heights) {
+    for cell in upright.map().grid.rows().flatten() {
+        let [one, other] = [&upright, &leaning].map(|own| own.map().heights[cell]);
         assert!((one - other).abs() < 1e-3, "{one}, {other}");
+    }
+}
+
+/// A tool that stands up from a plane has not cut what is below it then.
+#[test]
+fn a_move_after_one_on_a_plane() {
+    let mut done = Simulation::new(setup(tool(&Shape::Flat, 10.0), &[plane(30.0, 0.0)], [20.0, 20.0, 10.0]));
+    done.push(go(Way::Feed, [20.0, 20.0, -4.0], 1));
+    done.push(go(Way::Feed, [22.0, 20.0, -4.0], 0));
+    // The disc where it stood.
+    let within = |at: &[f64; 2]| (at[0] - 20.0).hypot(at[1] - 20.0) < 4.9;
+    let map = done.map();
+    for cell in map.grid.rows().flatten().filter(|cell| within(&map.grid.centre_of(*cell))) {
+        assert!(map.heights[cell] <= -4.0, "{:?}: {}", map.grid.centre_of(cell), map.heights[cell]);
     }
 }
 
@@ -255,7 +270,7 @@ fn a_plane_that_is_not_tilted() {
                 at = end;
             }
             let [one, other] = both.each_ref().map(Simulation::map);
-            for cell in 0..one.heights.len() {
+            for cell in one.grid.rows().flatten() {
                 let last =
                     both[0].map().last[cell].checked_sub(1).map(|last| both[0].moves()[last as usize].way);
                 // Chords leave an arc by a little, which is more along Z where the tool is steep.
@@ -285,12 +300,12 @@ fn a_part_that_is_turned() {
             one.push(go(Way::Feed, end, 1));
             other.push(go(Way::Feed, quarter(end), 1));
         }
-        let width = one.map().grid.cells[0];
-        for cell in 0..width * width {
-            let [column, row] = [cell % width, cell / width];
+        let grid = one.map().grid;
+        for cell in grid.rows().flatten() {
+            let [column, row] = grid.place(cell);
             let [own, its] = [
                 one.map().material(cell, -20.0),
-                other.map().material(column * width + (width - 1 - row), -20.0),
+                other.map().material(grid.index([grid.cells[0] - 1 - row, column]), -20.0),
             ];
             let [own, its] = [own, its].map(|all| all.iter().map(|own| own[1] - own[0]).sum::<f32>());
             assert!((own - its).abs() < 2e-3, "{shape:?} {column} {row}: {own}, {its}");
@@ -325,11 +340,10 @@ fn what_is_cut_is_where_the_tool_was() {
                 let tip = |t: f64| [0, 1, 2].map(|n: usize| from[n] + t * (to[n] - from[n]));
                 (0..=2000).any(|n| outside(&own.cutter, &axes, tip(f64::from(n) / 2000.0), at) < 0.0)
             };
-            let width = done.map().grid.cells[0];
+            let cells: Vec<usize> = done.map().grid.rows().flatten().collect();
             for _ in 0..12 {
-                let cell = rng.usize(0..width * width);
-                let [x, y] =
-                    [done.map().grid.centre(0, cell % width), done.map().grid.centre(1, cell / width)];
+                let cell = cells[rng.usize(..cells.len())];
+                let [x, y] = done.map().grid.centre_of(cell);
                 let material = done.map().material(cell, -20.0);
                 let z = -rng.f64() * 20.0;
                 // Between two places of the tool there is a little that it takes as well.

@@ -51,10 +51,10 @@ fn a_t_slot() {
     done.push(go(Way::Rapid, [20.0, 50.0, -12.0]));
     assert_eq!(kinds(&done), []);
     let map = done.map();
-    for (cell, height) in map.heights.iter().enumerate() {
-        let off = (map.grid.centre(0, cell % map.grid.cells[0]) - 20.0).abs();
+    for cell in map.grid.rows().flatten() {
+        let (height, off) = (map.heights[cell], (map.grid.centre_of(cell)[0] - 20.0).abs());
         let hollow: &[[f32; 2]] = if off > 4.0 && off <= 8.0 { &[[-12.0, -7.0]] } else { &[] };
-        assert_eq!((*height, map.hollows.of(cell)), (if off <= 4.0 { -12.0 } else { 0.0 }, hollow), "{off}");
+        assert_eq!((height, map.hollows.of(cell)), (if off <= 4.0 { -12.0 } else { 0.0 }, hollow), "{off}");
     }
     let volumes: Vec<f32> = done.removed().iter().map(|removed| removed.volume).collect();
     assert!((volumes[4] - 2.0 * 4.0 * 30.0 * 5.0).abs() < 0.5 && volumes[5] == 0.0, "{volumes:?}");
@@ -86,13 +86,13 @@ fn a_lollipop() {
     done.push(go(Way::Feed, [22.0, -20.0, -11.0]));
     assert_eq!(kinds(&done), []);
     let map = done.map();
-    for (cell, height) in map.heights.iter().enumerate() {
-        let x = map.grid.centre(0, cell % map.grid.cells[0]);
+    for cell in map.grid.rows().flatten() {
+        let (height, x) = (map.heights[cell], map.grid.centre_of(cell)[0]);
         let half = (25.0 - (x - 22.0_f64).powi(2)).sqrt() as f32;
         match map.hollows.of(cell) {
-            [] => assert!(half.is_nan() || (16.0..=24.0).contains(&x) && *height <= -12.0, "X{x}: {height}"),
+            [] => assert!(half.is_nan() || (16.0..=24.0).contains(&x) && height <= -12.0, "X{x}: {height}"),
             [[low, high]] => {
-                assert!(x > 24.0 && *height == 0.0, "X{x}: {height}");
+                assert!(x > 24.0 && height == 0.0, "X{x}: {height}");
                 assert!((low + 6.0 + half).abs() < MICRON && (high + 6.0 - half).abs() < MICRON, "X{x}");
             }
             all => panic!("X{x}: {all:?}"),
@@ -168,7 +168,7 @@ fn faces_around_hollows_close_the_part() {
     done.push(go(Way::Feed, [20.0, 12.0, -12.0]));
     let map = done.map();
     let covered = covered(map);
-    let few = covered.iter().filter(|own| !**own).count();
+    let few = map.grid.rows().flatten().filter(|cell| !covered[*cell]).count();
     // Hollows from X 12 to X 28, cells of 2 mm: two columns on each side are further away than four cells.
     assert_eq!(few, 4 * map.grid.cells[1]);
     let all = faces(map, &vec![true; map.grid.len()], -20.0);
@@ -179,7 +179,7 @@ fn faces_around_hollows_close_the_part() {
     for face in &all {
         let cell = face.cell as usize;
         let place = |axis: usize, n: usize| map.grid.centre(axis, n);
-        let [column, row] = [cell % map.grid.cells[0], cell / map.grid.cells[0]];
+        let [column, row] = map.grid.place(cell);
         let [low, high] = face.between.map(f64::from);
         let length = f64::from(face.length);
         long += usize::from(face.length > 1);

@@ -30,14 +30,12 @@ impl Between {
     pub fn of(one: &HeightMap, other: &HeightMap, floor: f32) -> Between {
         assert_eq!(one.grid, other.grid, "parts on two grids");
         let mut between = Between::default();
-        let width = one.grid.cells[0];
         let area = one.grid.cell * one.grid.cell;
         if !(one.hollows.is_empty() && other.hollows.is_empty()) {
             return Between::with_hollows(one, other, floor);
         }
         for (n, (a, b)) in one.heights.iter().zip(&other.heights).enumerate() {
             let by = f64::from(a.max(floor)) - f64::from(b.max(floor));
-            let place = || [one.grid.centre(0, n % width), one.grid.centre(1, n / width)];
             if by == 0.0 {
                 continue;
             }
@@ -47,13 +45,13 @@ impl Between {
                 between.more += by * area;
                 let above = f64::from(own - high).max(0.0);
                 if above > 0.0 && between.highest.is_none_or(|(_, most)| above > most) {
-                    between.highest = Some((place(), above));
+                    between.highest = Some((one.grid.centre_of(n), above));
                 }
             } else {
                 between.less -= by * area;
                 let below = f64::from(low - own).max(0.0);
                 if below > 0.0 && between.deepest.is_none_or(|(_, most)| below > most) {
-                    between.deepest = Some((place(), below));
+                    between.deepest = Some((one.grid.centre_of(n), below));
                 }
             }
         }
@@ -63,7 +61,6 @@ impl Between {
     /// As [`Between::of`], of parts of which one has hollows: what lies in one cell must be of none of those around.
     fn with_hollows(one: &HeightMap, other: &HeightMap, floor: f32) -> Between {
         let mut between = Between::default();
-        let width = one.grid.cells[0];
         let area = one.grid.cell * one.grid.cell;
         let length = |all: &[[f32; 2]]| all.iter().map(|[low, high]| f64::from(high - low)).sum::<f64>();
         for cell in 0..one.heights.len() {
@@ -74,7 +71,6 @@ impl Between {
             let [more, less] = [without(&own, &its), without(&its, &own)];
             between.more += length(&more) * area;
             between.less += length(&less) * area;
-            let place = [one.grid.centre(0, cell % width), one.grid.centre(1, cell / width)];
             for (mut left, most, is_there) in
                 [(more, &mut between.highest, true), (less, &mut between.deepest, false)]
             {
@@ -88,7 +84,7 @@ impl Between {
                 }
                 let longest = left.iter().map(|[low, high]| f64::from(high - low)).fold(0.0, f64::max);
                 if longest > 0.0 && most.is_none_or(|(_, most)| longest > most) {
-                    *most = Some((place, longest));
+                    *most = Some((one.grid.centre_of(cell), longest));
                 }
             }
         }
@@ -111,11 +107,11 @@ fn around(map: &HeightMap, cell: usize, floor: f32) -> [f32; 2] {
 
 /// A cell and those around it.
 fn beside(map: &HeightMap, cell: usize) -> impl Iterator<Item = usize> {
-    let [width, height] = map.grid.cells;
-    let [column, row] = [cell % width, cell / width];
+    let (grid, [width, height]) = (map.grid, map.grid.cells);
+    let [column, row] = map.grid.place(cell);
     let columns = column.saturating_sub(1)..(column + 2).min(width);
     (row.saturating_sub(1)..(row + 2).min(height))
-        .flat_map(move |row| columns.clone().map(move |column| row * width + column))
+        .flat_map(move |row| columns.clone().map(move |column| grid.index([column, row])))
 }
 
 #[cfg(test)]
@@ -129,8 +125,8 @@ mod tests {
         // Low from a column on.
         let step = |from: usize, low: f32| {
             let mut map = flat();
-            for (n, height) in map.heights.iter_mut().enumerate() {
-                *height = if n % 10 >= from { low } else { 0.0 };
+            for row in map.grid.rows() {
+                map.heights[row][from..].fill(low);
             }
             map
         };
