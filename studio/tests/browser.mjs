@@ -70,7 +70,7 @@ export function paste(page, text) {
 export const line = async (page) => Number(await page.locator("#editor .cm-activeLineGutter").first().textContent());
 
 /** Waits until the picture stays as it is, three seconds at most: by software a fine part takes longer than a moment. */
-async function drawn(page) {
+export async function drawn(page) {
   const frames = () =>
     page.evaluate(async () => {
       const canvas = document.querySelector("#canvas");
