@@ -268,13 +268,13 @@ fn held_against(
 fn part(cut: &CutProgram) -> Outputs {
     let map = cut.simulation.map();
     let grid = map.grid;
-    // Here no cells are left out between two rows.
+    // Rows of the page follow each other, without what lies between them in a map.
     let number = |cell: usize| {
         let [column, row] = grid.place(cell);
         (row * grid.cells[0] + column) as u32
     };
-    let heights = grid.rows().flat_map(|row| &map.heights[row]).flat_map(|own| own.to_le_bytes()).collect();
-    let last = grid.rows().flat_map(|row| &map.last[row]).flat_map(|own| own.to_le_bytes()).collect();
+    let heights = bytes(grid.cells, grid.rows().map(|row| &map.heights[row]), |own| own.to_le_bytes());
+    let last = bytes(grid.cells, grid.rows().map(|row| &map.last[row]), |own| own.to_le_bytes());
     let mut outputs = vec![("heights", heights), ("last", last)];
     let covered = covered(map);
     if !covered.is_empty() {
@@ -292,6 +292,19 @@ fn part(cut: &CutProgram) -> Outputs {
         outputs.push(("covered", rows.map(|own| u8::from(*own)).collect()));
     }
     outputs
+}
+
+/// The bytes of the numbers in rows, little-endian by `bytes_of`. Row by row: parts have a million cells.
+fn bytes<'m, T: Copy + 'm>(
+    [columns, rows]: [usize; 2],
+    all: impl Iterator<Item = &'m [T]>,
+    bytes_of: impl Fn(T) -> [u8; 4],
+) -> Vec<u8> {
+    let mut bytes = vec![0; 4 * columns * rows];
+    for (places, row) in bytes.as_chunks_mut().0.chunks_mut(columns).zip(all) {
+        places.iter_mut().zip(row).for_each(|(place, own)| *place = bytes_of(*own));
+    }
+    bytes
 }
 
 fn words([a, b]: [u32; 2], [low, high]: [f32; 2]) -> impl Iterator<Item = u8> {

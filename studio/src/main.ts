@@ -197,11 +197,11 @@ player.now.on((now) => {
   const path = session.path.get();
   placed = player.seconds > 0 && now.time < player.seconds;
   charts.setTime(now.time, now.piece, now.share);
-  machine?.setNow(path, now);
+  if (path) void session.seek(movesOver(path, now));
+  machine?.setNow(path, now, session.seeks);
   // The end of a program is where a page begins: no line is marked then.
   const line = path && placed && now.piece >= 0 ? (path.line[now.piece] ?? 0) : 0;
   editor.markNow(line, follow);
-  if (path) void session.seek(movesOver(path, now));
 });
 
 await desk.begin().catch(() => desk.example(EXAMPLES[0] as Example));
@@ -215,7 +215,7 @@ try {
 } catch (error) {
   picture();
   session.state.set("failed");
-  session.checked.set({ problems: [], notChecked: [], told: `${say(error instanceof TooOld ? "tooOld" : "noEngine")}\n${String(error)}` });
+  session.checked.set({ problems: [], notChecked: [], told: `${say(error instanceof TooOld ? "tooOld" : hostName() === "worker" ? "noEngine" : "noAnswer")}\n${String(error)}` });
 }
 if ("serviceWorker" in navigator && hostName() === "worker") {
   void navigator.serviceWorker.register("sw.js").catch(() => undefined);

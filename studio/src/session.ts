@@ -420,9 +420,16 @@ export class Session {
     if (alarms.length > 0) this.checked.set({ ...checked, problems: [...alarms, ...checked.problems] });
   }
 
+  /** Whether a part is on its way. */
+  get seeks(): boolean {
+    return this.seeking;
+  }
+
   /** Shows the part after so many moves; while one is on its way, the last that is wanted waits. */
   async seek(moves: number): Promise<void> {
-    this.wantedMoves = moves;
+    // A new part comes as all moves leave it.
+    const path = this.path.get();
+    this.wantedMoves = path && moves >= (path.move[path.pieces - 1] ?? 0) ? Infinity : moves;
     const heavy = this.engines?.heavy;
     if (!heavy || !this.part.get() || this.seeking) return;
     this.seeking = true;

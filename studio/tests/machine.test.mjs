@@ -363,6 +363,23 @@ page("how fine the device can draw is known from the first pictures, before anyb
   assert.equal(await data(own, "fineness"), fineness);
 });
 
+both("an edit brings one part, and the picture as fine as it was", {}, async (own) => {
+  await type(own, SLOT);
+  await own.waitForTimeout(2500);
+  const [shown, frames, fineness] = [Number(await data(own, "shown")), Number(await data(own, "frames")), await data(own, "fineness")];
+  await own.locator("#editor .cm-content").click();
+  await own.keyboard.press("Control+Home");
+  await own.keyboard.press("Enter");
+  await own.waitForFunction((before) => Number(document.querySelector("#canvas").dataset.shown) > before, shown);
+  await ready(own);
+  await own.waitForTimeout(1500);
+  assert.equal(Number(await data(own, "shown")), shown + 1);
+  assert.equal(await data(own, "fineness"), fineness);
+  // The cursor, the part, and what the mark of a line may need: no row of pictures on trial.
+  const drawn = Number(await data(own, "frames")) - frames;
+  assert.ok(drawn >= 1 && drawn <= 3, String(drawn));
+});
+
 const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };
 for (const [name, options] of [["wide and light", {}], ["wide and dark", { colorScheme: "dark" }], ["a phone", PHONE]]) {
   page(`axe finds nothing in the cards and the plan: ${name}`, options, async (own) => {

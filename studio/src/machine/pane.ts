@@ -86,8 +86,10 @@ export class MachinePane {
     this.sectionCard?.setPart(part);
     this.view.draw();
     // What a test, or a user's script, can see of the part.
+    const { last } = part;
     let cut = 0;
-    for (const move of part.last) cut += Number(move > 0);
+    // Not `for … of`, which takes twenty times as long.
+    for (let cell = 0; cell < last.length; cell += 1) if (last[cell]) cut += 1;
     byId("canvas").dataset.cut = String(cut);
     byId("canvas").dataset.faces = String(part.faces.length / 4);
     byId("canvas").dataset.shown = String(Number(byId("canvas").dataset.shown ?? 0) + 1);
@@ -106,12 +108,13 @@ export class MachinePane {
     this.tell(told ? say("noPath") : "", told);
   }
 
-  setNow(path: Path | undefined, now: Now): void {
+  /** `partComes`: the part at that moment is on its way. */
+  setNow(path: Path | undefined, now: Now, partComes = false): void {
     const tool = path && this.cut?.tools[path.tool[Math.max(0, now.piece)] ?? 0];
     this.readout.show(path, now, tool);
     if (!path) return;
     this.view?.setTool(tool);
-    this.view?.setNow(now.piece, now.share, placeOf(path, now), path ? leaning(path, now.piece) : [0, 0, 1]);
+    this.view?.setNow(now.piece, now.share, placeOf(path, now), leaning(path, now.piece), partComes);
   }
 
   /** Marks the path of a line, and what its moves left on the part. */

@@ -61,8 +61,8 @@ export class Paths {
   private readonly pickUniforms = shared();
   private path: Path | undefined;
 
-  /** Another path, for a device that draws slowly or may do so. */
-  set(path: Path | undefined, slow: boolean): void {
+  /** Another path, for a device that draws slowly or may do so; one that is like the last is drawn as finely. */
+  set(path: Path | undefined, slow: boolean, alike: boolean): void {
     this.clear();
     this.path = path;
     const pieces = path?.pieces ?? 0;
@@ -80,7 +80,7 @@ export class Paths {
       this.pick.add(piece(texture, base, moves, wide, this.pickUniforms, PICK));
     }
     // Where there are many, few are drawn until it is known how quick the device is.
-    this.thin(wide && !slow ? 1 : Math.ceil(pieces / FEW));
+    this.thin(alike ? this.every : wide && !slow ? 1 : Math.ceil(pieces / FEW));
   }
 
   /** So many moves are one line. */

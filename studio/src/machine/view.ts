@@ -42,6 +42,8 @@ const UPRIGHT = new Vector3(0, 0, 1);
 const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 /** Pixels around a pointer that are looked through for a move. */
 const REACH = 9;
+/** A picture that a newer part will change waits so long for it, ms. */
+const PART_COMES = 300;
 /** So many pictures are timed, and one that takes longer is slow, ms. */
 const [TRIALS, SLOW] = [7, 60];
 
@@ -90,6 +92,7 @@ export class MachineView {
   private box: Box = NO_PATH;
   private path: Path | undefined;
   private asked = false;
+  private late = 0;
   private trials = TRIALS;
   /** Whether it is known that more would be too much. */
   private settled = false;
@@ -122,10 +125,14 @@ export class MachineView {
 
   /** Another path with its part, or none. */
   setPath(path: Path | undefined, cut: Cut | undefined, keepEye: boolean): void {
+    // After an edit the program is drawn as fast as before.
+    const alike = keepEye && isAlike(this.path, path, [this.cut, cut]);
     this.path = path;
-    this.trials = TRIALS;
-    this.settled = false;
-    this.paths.set(path, this.slow);
+    if (!alike) {
+      this.trials = TRIALS;
+      this.settled = false;
+    }
+    this.paths.set(path, this.slow, alike);
     this.stock.open(cut, this.slow);
     this.cut = cut;
     this.face.show(this.section, cut);
@@ -140,13 +147,16 @@ export class MachineView {
     this.draw();
   }
 
-  /** The piece under way and how much of it is done, where the tip is, and the direction of the tool from there. */
-  setNow(move: number, share: number, place: Point, direction: Point): void {
+  /** The piece under way and how much of it is done, where the tip is, and the direction of the tool from there. Where the part
+   * comes, too, a device that draws slowly waits for it. */
+  setNow(move: number, share: number, place: Point, direction: Point, partComes: boolean): void {
     this.paths.setNow(move, share);
     this.tool.position.set(...place);
     this.tool.quaternion.setFromUnitVectors(UPRIGHT, new Vector3(...direction));
     this.canvas.dataset.leans = direction.map((part) => part.toFixed(4)).join(" ");
-    this.draw();
+    if (!partComes || !this.slow) return this.draw();
+    clearTimeout(this.late);
+    this.late = window.setTimeout(() => this.draw(), PART_COMES);
   }
 
   /** The tool that is in. */
@@ -322,6 +332,7 @@ export class MachineView {
 
   /** Draws soon, once for all that changed until then. */
   draw(): void {
+    clearTimeout(this.late);
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(() => {
@@ -490,6 +501,12 @@ export class MachineView {
     }
     this.draw();
   }
+}
+
+/** Whether two programs, and parts, take about as long to draw. */
+function isAlike(one: Path | undefined, other: Path | undefined, [own, its]: (Cut | undefined)[]): boolean {
+  if (!one || !other || String(own?.raw.cells) !== String(its?.raw.cells)) return false;
+  return one.pieces <= 2 * other.pieces && other.pieces <= 2 * one.pieces;
 }
 
 /** A box around two. */
