@@ -6,10 +6,10 @@
 // the time of a network in it. A figure is printed, with a `>` where it is over what is asked, and fails nothing; one that could
 // not be measured does. Each measurement looks at what the page shows: a page that failed, or shows another program, has none.
 
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { gzipSync } from "node:zlib";
 import { NCC, studio } from "./binary.mjs";
 import { begin, drawn, open, ready } from "./browser.mjs";
 
@@ -279,7 +279,7 @@ function table() {
 try {
   const site = process.env.STUDIO_SITE;
   const files = site ? readdirSync(site, { recursive: true, withFileTypes: true }).filter((one) => one.isFile()) : [];
-  const packed = files.map((one) => gzipSync(readFileSync(join(one.parentPath ?? one.path, one.name)), { level: 9 }).length);
+  const packed = files.map((one) => execFileSync("gzip", ["-9c", join(one.parentPath ?? one.path, one.name)], { maxBuffer: 1e8 }).length);
   if (site) bundle.values.worker.push(packed.reduce((sum, bytes) => sum + bytes, 0) / 1e6);
   const sizes = SIZES.map((size) => ({ ...size, ...program(`${size.lines}.nc`, size.lines - HEAD.length - TAIL.length) }));
   const million = program("million.nc", 1_000_000);

@@ -205,8 +205,8 @@ const TEXTURES = [
 
 /** Cells along a side of which a part has many. */
 const MANY = 700;
-/** Cells between two points at most. */
-const COARSEST = 4;
+/** Cells between two points at most; more only where points stay so near each other in the picture, in pixels. */
+const [COARSEST, NEAR] = [4, 4];
 
 export class StockView {
   readonly drawn: Mesh<BufferGeometry, RawShaderMaterial>;
@@ -292,12 +292,18 @@ export class StockView {
     return this.uniforms.stride!.value as number;
   }
 
-  /** Fewer points, for a device that draws slowly; false where there are few already. */
-  coarser(): boolean {
-    if (this.uniforms.stride!.value >= COARSEST) return false;
-    this.uniforms.stride!.value *= 2;
+  /** Fewer points, for a device that draws slowly; false where there are few already. A cell is so many pixels wide. */
+  coarser(pixels: number): boolean {
+    const stride = 2 * this.stride;
+    if (stride > COARSEST && stride * pixels > NEAR) return false;
+    this.uniforms.stride!.value = stride;
     this.rebuild();
     return true;
+  }
+
+  /** The eye came nearer: points that are far from each other now get others between them. */
+  nearer(pixels: number): void {
+    while (this.stride > COARSEST && this.stride * pixels > 2 * NEAR) this.finer();
   }
 
   /** More points, for a device that draws quickly; false where each cell has its own. */

@@ -364,6 +364,7 @@ export class MachineView {
   private render(): void {
     const began = performance.now();
     this.wireframe();
+    this.stock.nearer(this.cellPixels);
     this.paths.setSize(this.canvas.clientWidth, this.canvas.clientHeight, 1);
     this.renderer.setViewport(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
     this.renderer.render(this.scene, this.camera);
@@ -383,15 +384,20 @@ export class MachineView {
     if (spent > SLOW || quick) this.slow = !quick;
     if (spent > SLOW) {
       this.settled = true;
-      return [this.paths, this.stock].map((one) => one.coarser()).some(Boolean);
+      return [this.paths.coarser(), this.stock.coarser(this.cellPixels)].some(Boolean);
     }
     return !this.settled && quick && [this.paths, this.stock].map((one) => one.finer()).some(Boolean);
+  }
+
+  /** How wide a cell of the part is in the picture, in pixels. */
+  private get cellPixels(): number {
+    return (this.stock.uniforms.cell!.value as number) * this.camera.zoom * (this.canvas.clientHeight / 200);
   }
 
   /** Cells between two lines of a wireframe: so many that lines are apart. */
   private wireframe(): void {
     const { uniforms } = this.stock;
-    const cell = (uniforms.cell!.value as number) * this.camera.zoom * (this.canvas.clientHeight / 200);
+    const cell = this.cellPixels;
     uniforms.look!.value.w = this.look_?.wire ? 2 ** Math.max(0, Math.ceil(Math.log2(7 / Math.max(cell, 1e-6)))) : 0;
   }
 
