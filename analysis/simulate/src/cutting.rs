@@ -5,9 +5,9 @@ use std::ops::Range;
 use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f32x8, u32x8};
 
 use crate::cut::{Cut, Hit, TOUCH, take};
-use crate::map::{Grid, HeightMap};
+use crate::map::{Grid, HeightMap, LANES};
 use crate::moves::{Move, Way};
-use crate::surface::{Across, Along, Cells, LANES, Row, Surface, endless, indices, not_below_zero};
+use crate::surface::{Across, Along, Cells, Row, Surface, endless, indices, not_below_zero};
 use crate::sweep::sweep;
 use crate::tool::Cutter;
 

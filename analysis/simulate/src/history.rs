@@ -6,8 +6,8 @@
 use fearless_simd::{Simd, SimdBase, SimdFrom, SimdMask, dispatch, u32x8};
 
 use crate::hollows::Spaces;
-use crate::map::{HeightMap, TILE};
-use crate::surface::{LANES, level};
+use crate::map::{HeightMap, LANES, TILE};
+use crate::surface::level;
 
 /// Moves from one place to the next that can be gone to at once.
 pub(crate) const STRIDE: usize = 5_000;

@@ -1,7 +1,6 @@
 //! Heights of material over a grid of square cells.
 
 use crate::hollows::Hollows;
-use crate::surface::LANES;
 
 /// Where the cells of a map are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,6 +118,9 @@ impl Grid {
         self.len() == 0
     }
 }
+
+/// Cells of a group. The widest vectors used hold eight numbers (AVX2); narrower ones take two or more instructions.
+pub(crate) const LANES: usize = 8;
 
 /// Cells from row to row, where so many are used: eight of any of them are in one row. Rows begin an odd number of
 /// cache lines apart. Rows of 1024 cells would all share one of 64 sets of lines, which holds eight: cutting takes up to a half longer.

@@ -9,10 +9,7 @@ use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f32x8
 
 use crate::band::Band;
 use crate::line::{Line, Sloped};
-use crate::map::Grid;
-
-/// Cells of a group. The widest vectors used hold eight numbers (AVX2); narrower ones take two or more instructions.
-pub(crate) const LANES: usize = 8;
+use crate::map::{Grid, LANES};
 
 /// Vector instructions of this processor. All of them give the same results, bit by bit.
 pub(crate) fn level() -> fearless_simd::Level {

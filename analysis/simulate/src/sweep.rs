@@ -17,11 +17,12 @@ use fearless_simd::{Select, Simd, SimdBase, SimdInt, dispatch, f32x8, i32x8};
 use crate::band::{Band, Form};
 use crate::level_arc::{WIDEST, level_arc};
 use crate::line::Line;
+use crate::map::LANES;
 use crate::moves::Way;
 use crate::rows::{Done, Rows};
 use crate::surface::{
-    Across, Along, Ball, Cells, Cone, Flat, LANES, Level, LevelRound, Row, SlopedRound, WideFlat, Within,
-    indices, level,
+    Across, Along, Ball, Cells, Cone, Flat, Level, LevelRound, Row, SlopedRound, WideFlat, Within, indices,
+    level,
 };
 use crate::tool::Cutter;
 

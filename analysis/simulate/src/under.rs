@@ -7,9 +7,9 @@ use std::ops::Range;
 
 use fearless_simd::Simd;
 
-use crate::map::Grid;
+use crate::map::{Grid, LANES};
 use crate::moves::Way;
-use crate::surface::{Across, Along, Cells, LANES, Surface, indices};
+use crate::surface::{Across, Along, Cells, Surface, indices};
 use crate::sweep::{chords, sweep};
 use crate::tool::Cutter;
 
