@@ -99,7 +99,7 @@ impl Rows {
     #[inline(always)]
     pub(crate) fn touched<S: Simd>(&self, simd: S, row: usize, done: Done) -> [[i32x8<S>; 2]; 2] {
         let [mut low, mut high] = self.reach(simd, row);
-        // Where all is done around the start, cells on the other side of it are, too.
+        // Cells on the other side of the start are in the hole, if all is done around it.
         if done.along > f32::MIN && done.around < self.radius {
             [low, high] = self.beyond(simd, row, [low, high], done.along);
         }

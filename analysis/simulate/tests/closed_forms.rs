@@ -251,7 +251,7 @@ fn a_wider_tool_goes_on_where_another_one_stood() {
     });
 }
 
-/// What lies between the rows of cells in memory is no material, and stays so.
+/// Memory between the rows of cells holds no material, before and after a cut.
 #[test]
 fn cuts_beyond_the_border_stay_in_their_row() {
     for cells in [9, 10, 15, 16, 17, 100, 400] {

@@ -155,8 +155,8 @@ export class MachineView {
     this.tool.quaternion.setFromUnitVectors(UPRIGHT, new Vector3(...direction));
     this.canvas.dataset.leans = direction.map((part) => part.toFixed(4)).join(" ");
     if (!partComes || !this.slow) return this.draw();
-    clearTimeout(this.late);
-    this.late = window.setTimeout(() => this.draw(), PART_COMES);
+    // While a program plays, moments follow each other faster than that: the first of them counts.
+    this.late ||= window.setTimeout(() => this.draw(), PART_COMES);
   }
 
   /** The tool that is in. */
@@ -333,6 +333,7 @@ export class MachineView {
   /** Draws soon, once for all that changed until then. */
   draw(): void {
     clearTimeout(this.late);
+    this.late = 0;
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(() => {
