@@ -14,7 +14,7 @@ import { endsOf, meet, snap } from "./pick";
 import { Readout, drawCompass } from "./readout";
 import { SectionCard } from "./section-card";
 import { planeOf, type Section } from "./section";
-import { MachineView, hasWebgl, type Picked, type Side } from "./view";
+import { MachineView, drawingOn, type Picked, type Side } from "./view";
 
 const NAMES: Record<Colouring, TextName> = {
   kind: "byKind",
@@ -44,7 +44,7 @@ export class MachinePane {
     private readonly player: Player,
     private readonly picked: (line: number) => void,
   ) {
-    this.view = hasWebgl() ? this.open() : undefined;
+    this.view = this.open();
     const { view } = this;
     if (view) {
       const show = (section: Section | undefined) => {
@@ -142,8 +142,11 @@ export class MachinePane {
     this.view?.draw();
   }
 
-  private open(): MachineView {
-    return new MachineView(byId<HTMLCanvasElement>("canvas"), {
+  private open(): MachineView | undefined {
+    const canvas = byId<HTMLCanvasElement>("canvas");
+    const drawing = drawingOn(canvas);
+    if (!drawing) return undefined;
+    return new MachineView(canvas, drawing, {
       picked: (what, pixel) => {
         if (this.measureCard?.active) return this.measure(what, pixel);
         if (!what || !this.path) return this.mark(-1);
@@ -160,6 +163,7 @@ export class MachinePane {
         byId("scale").textContent = this.scale(view);
         byId("frame-time").textContent = view.timed ? this.spent(view) : "";
         byId("canvas").dataset.frames = String(view.frames);
+        byId("canvas").dataset.smoothed = String(view.smoothed);
         byId("canvas").dataset.fineness = `${view.stock.stride} ${view.paths.every}`;
         byId("canvas").dataset.middle = JSON.stringify(view.middle);
         byId("canvas").dataset.scale = String((view.camera.zoom * view.eye.height) / 200);

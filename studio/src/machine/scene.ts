@@ -1,9 +1,7 @@
 // What stands around the path: a grid on the lowest plane, the axes of the zero, and the tool.
 
 import {
-  BufferAttribute,
   BoxGeometry,
-  BufferGeometry,
   Color,
   CylinderGeometry,
   DirectionalLight,
@@ -11,9 +9,6 @@ import {
   Group,
   HemisphereLight,
   LatheGeometry,
-  LineBasicMaterial,
-  LineDashedMaterial,
-  LineSegments,
   Mesh,
   MeshLambertMaterial,
   Vector2,
@@ -23,6 +18,7 @@ import {
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
 import type { Fixture, Tool } from "../engine/part";
 import type { Box } from "../engine/path";
+import { linesOf } from "./lines";
 
 /** A step of 1, 2 or 5 and zeros, so that about so many fit in. */
 export function stepFor(length: number, count: number): number {
@@ -32,7 +28,7 @@ export function stepFor(length: number, count: number): number {
 }
 
 /** A grid around a box; `step` mm between its lines. */
-export function gridOf(box: Box, ink: Color): { grid: LineSegments; step: number } {
+export function gridOf(box: Box, ink: Color): { grid: Mesh; step: number } {
   const [x0, y0, z] = box.low;
   const [x1, y1] = box.high;
   const step = stepFor(Math.max(x1 - x0, y1 - y0), 12);
@@ -42,13 +38,7 @@ export function gridOf(box: Box, ink: Color): { grid: LineSegments; step: number
   const points: number[] = [];
   for (let x = left; x <= right + step / 2; x += step) points.push(x, front, z, x, back, z);
   for (let y = front; y <= back + step / 2; y += step) points.push(left, y, z, right, y, z);
-  return { grid: lines(points, ink), step };
-}
-
-function lines(points: number[], color: Color): LineSegments {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
-  return new LineSegments(geometry, new LineBasicMaterial({ color }));
+  return { grid: linesOf(points, ink), step };
 }
 
 /** The axes of the zero, so long. */
@@ -59,7 +49,7 @@ export function axesOf(length: number): Group {
     ["#2f9e57", 0, length, 0],
     ["#2f76dc", 0, 0, length],
   ] as const;
-  for (const [ink, x, y, z] of ends) group.add(lines([0, 0, 0, x, y, z], new Color(ink)));
+  for (const [ink, x, y, z] of ends) group.add(linesOf([0, 0, 0, x, y, z], new Color(ink)));
   return group;
 }
 
@@ -91,8 +81,8 @@ function turned(outline: Vector2[], color: string, opacity: number): Mesh {
   return body;
 }
 
-/** The edges of a box, dashed. */
-export function frameOf(box: Box, color: Color, dash: number): LineSegments {
+/** The edges of a box, dashed; each begins with a dash, so that edges over each other are one. */
+export function frameOf(box: Box, color: Color, dash: number): Mesh {
   const [low, high] = [box.low, box.high];
   const points: number[] = [];
   for (let axis = 0; axis < 3; axis += 1) {
@@ -107,13 +97,7 @@ export function frameOf(box: Box, color: Color, dash: number): LineSegments {
       points.push(...ends.flat());
     }
   }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
-  const made = new LineSegments(geometry, new LineDashedMaterial({ color, dashSize: dash, gapSize: dash * 0.7 }));
-  // Each edge begins with a dash, so that edges over each other are one.
-  const along = points.flatMap((_, at) => (at % 6 === 0 ? [0, Math.hypot(...[0, 1, 2].map((axis) => (points[at + 3 + axis] as number) - (points[at + axis] as number)))] : []));
-  geometry.setAttribute("lineDistance", new BufferAttribute(new Float32Array(along), 1));
-  return made;
+  return linesOf(points, color, dash);
 }
 
 /** What holds the part: a box, a cylinder, or a body of triangles. */
@@ -149,7 +133,7 @@ export function lights(): Group {
 /** Frees what a drawing holds on the graphics card. */
 export function free(drawing: Object3D): void {
   drawing.traverse((child) => {
-    if (!(child instanceof LineSegments || child instanceof Mesh)) return;
+    if (!(child instanceof Mesh)) return;
     child.geometry.dispose();
     (child.material as Material).dispose();
   });

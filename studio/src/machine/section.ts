@@ -59,6 +59,7 @@ ${MAP}
 ${HOLLOWS}
 uniform vec3 face;
 uniform vec3 hatch;
+uniform float ratio;
 in vec3 place;
 out vec4 ink;
 
@@ -85,7 +86,7 @@ float surface(vec2 at, float height) {
 
 void main() {
   if (surface(place.xy, place.z) < place.z) discard;
-  bool line = mod(gl_FragCoord.x + gl_FragCoord.y, 9.0) < 1.2;
+  bool line = mod((gl_FragCoord.x + gl_FragCoord.y) / ratio, 9.0) < 1.2;
   ink = vec4(line ? hatch : face, 1.0);
 }
 `;

@@ -12,6 +12,15 @@ precision highp int;
 precision highp sampler2D;
 `;
 
+/** Least to greatest by four colours, light enough for both grounds; the page's legend has the same. */
+export const SCALE = /* glsl */ `
+uniform vec3 scales[4];
+vec3 scale(float at) {
+  float x = clamp(at, 0.0, 1.0) * 3.0;
+  return x < 1.0 ? mix(scales[0], scales[1], x) : x < 2.0 ? mix(scales[1], scales[2], x - 1.0) : mix(scales[2], scales[3], x - 2.0);
+}
+`;
+
 export const VERTEX = /* glsl */ `${HEAD}
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
@@ -30,15 +39,23 @@ uniform vec2 marked;
 /** Bits of the kinds that are shown. */
 uniform int shown;
 uniform int future;
+uniform vec3 kinds[4];
+uniform vec3 tools[8];
+uniform vec3 mark;
+/** As COLOURINGS of the paths have it. */
+uniform int colouring;
+/** Least and greatest feed, then height; and the seconds of all moves. */
+uniform vec4 range;
+uniform float seconds;
+${SCALE}
 
 out float along;
 out float pixels;
 out vec3 place;
-flat out int kind;
 flat out int number;
+flat out int isRapid;
 flat out int isMarked;
-flat out vec4 more;
-flat out float depth;
+flat out vec3 tone;
 
 void main() {
   int corners = width > 0.0 ? 6 : 2;
@@ -50,12 +67,20 @@ void main() {
   int y = own / ${ROW};
   vec4 from = texelFetch(moves, ivec2(x, y), 0);
   vec4 to = texelFetch(moves, ivec2((last % ${ROW}) * ${TEXELS} + 1, last / ${ROW}), 0);
-  more = texelFetch(moves, ivec2(x + 2, y), 0);
+  vec4 more = texelFetch(moves, ivec2(x + 2, y), 0);
   float line = every == 1 ? to.w : texelFetch(moves, ivec2(x + 1, y), 0).w;
-  kind = int(from.w);
+  int kind = int(from.w);
+  bool rapid = kind == 0 || kind == 4;
+  isRapid = int(rapid);
   number = base + own;
   isMarked = int(to.w >= marked.x && line <= marked.y);
-  depth = to.z;
+  tone = kinds[kind & 3];
+  if (colouring == 1) tone = tools[int(more.x) & 7];
+  if (colouring == 2) tone = tools[int(more.w) & 7];
+  if (colouring == 3 && !rapid) tone = scale((more.y - range.x) / max(range.y - range.x, 1e-6));
+  if (colouring == 4) tone = scale((to.z - range.z) / max(range.w - range.z, 1e-6));
+  if (colouring == 5) tone = scale(more.z / max(seconds, 1e-6));
+  if (isMarked == 1) tone = mark;
   bool hidden = (shown & (1 << (kind & 3))) == 0 || (future == 0 && number > now);
   vec4 a = projectionMatrix * modelViewMatrix * vec4(from.xyz, 1.0);
   vec4 b = projectionMatrix * modelViewMatrix * vec4(to.xyz, 1.0);
@@ -82,11 +107,10 @@ const VARYINGS = /* glsl */ `${HEAD}
 in float along;
 in float pixels;
 in vec3 place;
-flat in int kind;
 flat in int number;
+flat in int isRapid;
 flat in int isMarked;
-flat in vec4 more;
-flat in float depth;
+flat in vec3 tone;
 uniform int now;
 uniform int every;
 uniform float share;
@@ -96,43 +120,18 @@ uniform vec4 section;
 out vec4 ink;
 `;
 
-/** Least to greatest by four colours, light enough for both grounds; the page's legend has the same. */
-export const SCALE = /* glsl */ `
-uniform vec3 scales[4];
-vec3 scale(float at) {
-  float x = clamp(at, 0.0, 1.0) * 3.0;
-  return x < 1.0 ? mix(scales[0], scales[1], x) : x < 2.0 ? mix(scales[1], scales[2], x - 1.0) : mix(scales[2], scales[3], x - 2.0);
-}
-`;
-
 export const FRAGMENT = /* glsl */ `${VARYINGS}
-uniform vec3 kinds[4];
-uniform vec3 tools[8];
-uniform vec3 mark;
 uniform vec3 ground;
-/** As COLOURINGS of the paths have it. */
-uniform int colouring;
-/** Least and greatest feed, then height; and the seconds of all moves. */
-uniform vec4 range;
-uniform float seconds;
-${SCALE}
 void main() {
   if (dot(section.xyz, place) > section.w) discard;
+  bool plain = isMarked == 0;
   // Rapid moves are dashed.
-  bool rapid = kind == 0 || kind == 4;
-  if (rapid && isMarked == 0 && mod(along * pixels, 9.0) > 5.5 && pixels > 9.0) discard;
-  vec3 own = kinds[kind & 3];
-  if (colouring == 1) own = tools[int(more.x) & 7];
-  if (colouring == 2) own = tools[int(more.w) & 7];
-  if (colouring == 3 && !rapid) own = scale((more.y - range.x) / max(range.y - range.x, 1e-6));
-  if (colouring == 4) own = scale((depth - range.z) / max(range.w - range.z, 1e-6));
-  if (colouring == 5) own = scale(more.z / max(seconds, 1e-6));
-  if (isMarked == 1) own = mark;
+  if (isRapid == 1 && plain && mod(along * pixels, 9.0) > 5.5 && pixels > 9.0) discard;
   bool done = along * float(every) <= float(now - number) + share;
-  float faint = done || isMarked == 1 ? 0.0 : 0.72;
+  float faint = done || !plain ? 0.0 : 0.72;
   // A rapid move says less than a cut.
-  if (rapid && done && isMarked == 0) faint = 0.25;
-  ink = vec4(mix(own, ground, faint), 1.0);
+  if (isRapid == 1 && done && plain) faint = 0.25;
+  ink = vec4(mix(tone, ground, faint), 1.0);
 }
 `;
 

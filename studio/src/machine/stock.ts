@@ -35,6 +35,30 @@ uniform int stride;
 uniform ivec2 points;
 `;
 
+/** Light on a face. */
+const LIGHT = /* glsl */ `
+uniform vec3 sun;
+uniform vec3 eye;
+/** Metalness, roughness, brightness of the light; cells between two lines of a wireframe, 0 for none. */
+uniform vec4 look;
+
+/** How many times its own colour it shows, and its highlight where it was cut. */
+vec2 lightOf(vec3 face) {
+  vec3 normal = normalize(face);
+  if (dot(normal, eye) < 0.0) normal = -normal;
+  float lit = max(dot(normal, sun), 0.0);
+  // Metal returns its own colour in a highlight and little else; what is rough spreads it.
+  float metal = look.x;
+  float sharp = exp2(1.0 + 8.0 * (1.0 - look.y));
+  float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), sharp) * (1.0 - look.y) * mix(0.3, 1.1, metal);
+  float around = 0.5 + 0.5 * reflect(-eye, normal).z;
+  float side = 0.5 + 0.5 * normal.z;
+  float matt = 0.50 + 0.16 * side + 0.42 * lit * look.z;
+  float mirror = mix(0.35 + 0.45 * lit * look.z, 0.45 + 0.65 * around, 1.0 - look.y);
+  return vec2(mix(matt, mirror, metal * 0.8), shine * look.z);
+}
+`;
+
 const VERTEX = /* glsl */ `
 precision highp float;
 precision highp int;
@@ -43,11 +67,11 @@ uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform sampler2D heights;
 ${MAP}
+${LIGHT}
 out vec3 place;
 out vec2 at;
-/** Which way the surface looks, and how near a wall of the border is. */
-out vec3 face;
-out float border;
+/** Light at the point: a device without graphics takes long for what is done at each pixel. */
+out vec2 light;
 flat out int isGone;
 
 float heightAt(ivec2 own) {
@@ -55,28 +79,30 @@ float heightAt(ivec2 own) {
 }
 
 void main() {
-  // A ring around the cells stands on the floor: the walls.
-  int across = points.x + 2;
-  ivec2 own = ivec2(gl_VertexID % across, gl_VertexID / across) - 1;
+  // Two rings around the cells are the walls: one at the height of its cells, and one on the floor.
+  int across = points.x + 4;
+  ivec2 own = ivec2(gl_VertexID % across, gl_VertexID / across) - 2;
   ivec2 point = clamp(own, ivec2(0), points - 1);
+  ivec2 outward = own - point;
   ivec2 inside = min(point * stride, cells - 1);
   float height = texelFetch(heights, inside, 0).r;
   isGone = int(height < -1e20);
-  bool wall = own != point;
-  place = vec3(low + (vec2(inside) + 0.5) * cell, wall || isGone == 1 ? bottom : height);
+  bool floor_ = any(greaterThan(abs(outward), ivec2(1)));
+  place = vec3(low + (vec2(inside) + 0.5) * cell, floor_ || isGone == 1 ? bottom : height);
   // The outer half of a cell at the border belongs to the part.
   place.xy += (vec2(greaterThanEqual(own, points - 1)) - vec2(lessThanEqual(own, ivec2(0)))) * 0.5 * cell;
   at = vec2(inside);
-  border = float(wall);
   // Over two points to each side, so that the steps of a wall between cells are not seen.
   int reach = 2 * stride;
   float x = heightAt(inside - ivec2(reach, 0)) - heightAt(inside + ivec2(reach, 0));
   float y = heightAt(inside - ivec2(0, reach)) - heightAt(inside + ivec2(0, reach));
-  face = vec3(x, y, 2.0 * float(reach) * cell);
+  light = lightOf(outward == ivec2(0) ? vec3(x, y, 2.0 * float(reach) * cell) : vec3(outward, 0.0));
   gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }
 `;
 
+/** What a picture has of colours, section, wireframe and hollows is compiled in, as `StockView.compile` says: by software, what
+ * a branch leaves out takes as long as what it does. */
 const FRAGMENT = /* glsl */ `
 precision highp float;
 precision highp int;
@@ -87,16 +113,13 @@ uniform sampler2D tint;
 uniform vec3 raw;
 uniform vec3 cut;
 uniform vec3 tools[8];
-/** 0 the part's own colour, 1 by the number in the tint, 2 by the scale in the tint, 3 by height. */
-uniform int colouring;
 uniform vec2 range;
 uniform vec2 marked;
 uniform vec3 mark;
-uniform vec3 sun;
-uniform vec3 eye;
 uniform vec4 section;
-/** Metalness, roughness, brightness of the light; cells between two lines of a wireframe, 0 for none. */
-uniform vec4 look;
+/** Pixels of the picture in one of the page. */
+uniform float ratio;
+${LIGHT}
 ${SCALE}
 ${HOLLOWS}
 #ifdef FACES
@@ -107,62 +130,66 @@ float heightAt(ivec2 own) {
   return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
 }
 ${MAKER}
+in vec3 face;
+in float border;
+#else
+in vec2 light;
 #endif
 in vec3 place;
 in vec2 at;
-in vec3 face;
-in float border;
 flat in int isGone;
 out vec4 ink;
 
 void main() {
-  if (isGone == 1 || dot(section.xyz, place) > section.w) discard;
-  if (look.w > 0.0) {
-    vec2 net = at / look.w;
-    vec2 off = abs(fract(net + 0.5) - 0.5) / max(fwidth(net), vec2(1e-5));
-    if (min(off.x, off.y) > 0.7) discard;
-  }
+  if (isGone == 1) discard;
+#ifdef SECTION
+  if (dot(section.xyz, place) > section.w) discard;
+#endif
+#ifdef WIRE
+  vec2 net = at / look.w;
+  vec2 off = abs(fract(net + 0.5) - 0.5) / max(fwidth(net), vec2(1e-5));
+  if (min(off.x, off.y) > 0.7 * ratio) discard;
+#endif
   ivec2 own_cell = ivec2(at + 0.5);
 #ifdef FACES
-  vec3 looks = face;
-  if (place.z > heightAt(own_cell) - 0.001) {
+  vec3 looks = border > 0.001 ? cross(dFdx(place), dFdy(place)) : face;
+  if (border < 0.001 && place.z > heightAt(own_cell) - 0.001) {
     // As the grid has it.
     float x = heightAt(own_cell - ivec2(2, 0)) - heightAt(own_cell + ivec2(2, 0));
     float y = heightAt(own_cell - ivec2(0, 2)) - heightAt(own_cell + ivec2(0, 2));
     looks = vec3(x, y, 4.0 * cell);
   }
-#else
-  // A hair less than is covered, so that no gap is seen between them.
-  if (isCovered(ivec2(at + 0.44)) && isCovered(ivec2(at + 0.56))) discard;
-  vec3 looks = face;
-#endif
-  vec3 normal = normalize(border > 0.001 ? cross(dFdx(place), dFdy(place)) : looks);
-  if (dot(normal, eye) < 0.0) normal = -normal;
-#ifdef FACES
+  vec2 light = lightOf(looks);
   ivec2 made = makerCell(own_cell);
   uint move = maker(made, place.z);
   float value = 0.0;
-  if (!isOutside(made)) value = (isBelow(made, place.z) ? texelFetch(hollowTint, made, 0) : texelFetch(tint, made, 0)).r * 255.0;
+  if (!isOutside(made)) value = (isBelow(made, place.z) ? texelFetch(hollowTint, made, 0) : texelFetch(tint, made, 0)).r;
 #else
-  uint move = texelFetch(last, own_cell, 0).r;
-  float value = texelFetch(tint, own_cell, 0).r * 255.0;
+#ifdef HOLLOWS
+  // A hair less than is covered, so that no gap is seen between them.
+  if (isCovered(ivec2(at + 0.44)) && isCovered(ivec2(at + 0.56))) discard;
 #endif
-  float touched = move > 0u ? 1.0 : 0.0;
-  vec3 own = mix(raw, cut, touched);
-  if (touched > 0.5 && colouring == 1) own = mix(own, tools[int(value + 0.5) & 7], 0.7);
-  if (touched > 0.5 && colouring == 2) own = mix(own, scale(value / 255.0), 0.8);
-  if (touched > 0.5 && colouring == 3) own = mix(own, scale((place.z - range.x) / max(range.y - range.x, 1e-6)), 0.8);
+  uint move = texelFetch(last, own_cell, 0).r;
+#if COLOURING == 1 || COLOURING == 2
+  float value = texelFetch(tint, own_cell, 0).r;
+#endif
+#endif
+  bool touched = move > 0u;
+#if COLOURING == 0
+  vec3 own = touched ? cut : raw;
+#else
+#if COLOURING == 1
+  vec3 tone = mix(cut, tools[int(value * 255.0 + 0.5) & 7], 0.7);
+#elif COLOURING == 2
+  vec3 tone = mix(cut, scale(value), 0.8);
+#else
+  vec3 tone = mix(cut, scale((place.z - range.x) / max(range.y - range.x, 1e-6)), 0.8);
+#endif
+  vec3 own = touched ? tone : raw;
+#endif
   if (float(move) >= marked.x && float(move) <= marked.y) own = mix(own, mark, 0.65);
-  float lit = max(dot(normal, sun), 0.0);
-  // Metal returns its own colour in a highlight and little else; what is rough spreads it.
-  float metal = look.x;
-  float sharp = exp2(1.0 + 8.0 * (1.0 - look.y));
-  float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), sharp) * (1.0 - look.y) * mix(0.3, 1.1, metal);
-  float around = 0.5 + 0.5 * reflect(-eye, normal).z;
-  float side = 0.5 + 0.5 * normal.z;
-  vec3 matt = own * (0.50 + 0.16 * side + 0.42 * lit * look.z);
-  vec3 mirror = own * mix(0.35 + 0.45 * lit * look.z, 0.45 + 0.65 * around, 1.0 - look.y);
-  ink = vec4(mix(matt, mirror, metal * 0.8) + mix(vec3(1.0), own, metal) * shine * look.z * touched, 1.0);
+  float shine = touched ? light.y : 0.0;
+  ink = vec4(own * light.x + mix(vec3(1.0), own, look.x) * shine, 1.0);
 }
 `;
 
@@ -218,6 +245,7 @@ export class StockView {
     scales: { value: [0, 1, 2, 3].map(() => new Color()) },
     section: { value: new Vector4(0, 0, 0, 1) },
     look: { value: new Vector4(0, 0.6, 1, 0) },
+    ratio: { value: 1 },
     range: { value: new Vector2(0, 1) },
     cells: { value: new Vector2() },
     low: { value: new Vector2() },
@@ -228,7 +256,6 @@ export class StockView {
     raw: { value: new Color() },
     cut: { value: new Color() },
     tools: { value: Array.from({ length: 8 }, () => new Color()) },
-    colouring: { value: 0 },
     marked: { value: new Vector2(-1, -1) },
     mark: { value: new Color() },
     sun: { value: [-0.33, -0.52, 0.79] },
@@ -237,6 +264,8 @@ export class StockView {
   /** The part around its hollows. */
   readonly faces = new Faces(this.uniforms, MAP, FRAGMENT, PICK);
   private cells: [number, number] = [0, 0];
+  private colouring: 0 | 1 | 2 | 3 = 0;
+  private compiled = "";
 
   constructor() {
     const make = (fragmentShader: string) => {
@@ -245,6 +274,7 @@ export class StockView {
         glslVersion: GLSL3,
         vertexShader: VERTEX,
         fragmentShader,
+        defines: {},
         uniforms,
         side: DoubleSide,
         // Moves along a face are seen on it.
@@ -318,7 +348,7 @@ export class StockView {
     const stride = this.uniforms.stride!.value as number;
     const [across, along] = this.cells.map((cells) => Math.ceil((cells - 1) / stride) + 1) as [number, number];
     this.uniforms.points!.value.set(across, along);
-    const index = new BufferAttribute(triangles(across + 2, along + 2), 1);
+    const index = new BufferAttribute(triangles(across + 4, along + 4), 1);
     for (const mesh of [this.drawn, this.pick]) {
       mesh.geometry.dispose();
       mesh.geometry = new BufferGeometry();
@@ -358,8 +388,23 @@ export class StockView {
 
   /** 0 the part's own colour, 1 by the number in the tint, 2 by its place on the scale, 3 by height between two. */
   setColouring(how: 0 | 1 | 2 | 3, low = 0, high = 1): void {
-    this.uniforms.colouring!.value = how;
+    this.colouring = how;
     this.uniforms.range!.value.set(low, high);
+  }
+
+  /** Before a picture: its shaders do what it shows and nothing else. */
+  compile(): void {
+    const { look, section } = this.uniforms;
+    const on = { WIRE: look!.value.w > 0, SECTION: section!.value.lengthSq() > section!.value.w ** 2, HOLLOWS: this.faces.some };
+    const defines = { COLOURING: this.colouring, ...Object.fromEntries(Object.entries(on).filter(([, is]) => is).map(([name]) => [name, 1])) };
+    const key = JSON.stringify(defines);
+    if (key === this.compiled) return;
+    this.compiled = key;
+    for (const { material } of [this.drawn, this.faces.drawn]) {
+      Object.keys(on).forEach((name) => delete material.defines[name]);
+      Object.assign(material.defines, defines);
+      material.needsUpdate = true;
+    }
   }
 
   /** Where the eye is, as a direction. */

@@ -1,11 +1,8 @@
 // The picture of the machine: three.js, an orthographic camera that goes around, and a drawing only when something changed.
 
 import {
-  BufferGeometry,
   Color,
   Group,
-  Line,
-  LineBasicMaterial,
   OrthographicCamera,
   Scene,
   Vector3,
@@ -18,6 +15,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Cut, Tool } from "../engine/part";
 import type { Box, Path } from "../engine/path";
 import { Labels } from "./labels";
+import { linesOf } from "./lines";
 import { sunOf, type Look } from "./look-card";
 import { Paths, corner, type Colouring } from "./paths";
 import { endsOf, seenAt, type Eye, type Point } from "./pick";
@@ -44,6 +42,8 @@ const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 const REACH = 9;
 /** A picture that a newer part will change waits so long for it, ms. */
 const PART_COMES = 300;
+/** Without smooth edges, a picture that stayed as it is for so long is drawn with them, ms. */
+const CALM = 250;
 /** So many pictures are timed, and one that takes longer is slow, ms. */
 const [TRIALS, SLOW] = [7, 60];
 
@@ -71,8 +71,9 @@ export class MachineView {
   spent = 0;
   /** mm between the grid's lines. */
   step = 10;
-  /** How often the picture was drawn. */
+  /** How often the picture was drawn, and how often of that for its edges alone. */
   frames = 0;
+  smoothed = 0;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly pickScene = new Scene();
@@ -93,6 +94,9 @@ export class MachineView {
   private path: Path | undefined;
   private asked = false;
   private late = 0;
+  private calm = 0;
+  /** Whether the next picture has smooth edges. */
+  private fine = false;
   private trials = TRIALS;
   /** Whether it is known that more would be too much. */
   private settled = false;
@@ -103,10 +107,10 @@ export class MachineView {
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
+    private readonly drawing: Drawing,
     private readonly watcher: Watcher,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer = new WebGLRenderer({ canvas, context: drawing.context });
     this.scene.add(this.surroundings, this.bench, this.stock.drawn, this.stock.faces.drawn, this.face.drawn, this.paths.drawn, this.measured, this.tool, lights());
     this.pickScene.add(this.stock.pick, this.stock.faces.pick, this.paths.pick);
     this.pickScene.background = new Color(0);
@@ -155,6 +159,7 @@ export class MachineView {
     this.tool.quaternion.setFromUnitVectors(UPRIGHT, new Vector3(...direction));
     this.canvas.dataset.leans = direction.map((part) => part.toFixed(4)).join(" ");
     if (!partComes || !this.slow) return this.draw();
+    clearTimeout(this.calm);
     // While a program plays, moments follow each other faster than that: the first of them counts.
     this.late ||= window.setTimeout(() => this.draw(), PART_COMES);
   }
@@ -235,16 +240,14 @@ export class MachineView {
 
   /** Places that are measured, with the line between them. */
   setMeasured(places: (Point | undefined)[]): void {
-    for (const child of [...this.measured.children] as Line[]) {
-      child.geometry.dispose();
-      (child.material as LineBasicMaterial).dispose();
-      this.measured.remove(child);
-    }
+    free(this.measured);
+    this.measured.clear();
     ["A", "B"].forEach((name, own) => this.labels.put(`place ${name}`, name, places[own]));
     const [a, b] = places;
     if (a && b) {
       const ink = getComputedStyle(document.documentElement).getPropertyValue("--mark").trim();
-      const line = new Line(new BufferGeometry().setFromPoints([new Vector3(...a), new Vector3(...b)]), new LineBasicMaterial({ color: ink, depthTest: false }));
+      const line = linesOf([...a, ...b], new Color(ink));
+      line.material.depthTest = false;
       line.renderOrder = 9;
       this.measured.add(line);
     }
@@ -331,27 +334,41 @@ export class MachineView {
   }
 
   /** Draws soon, once for all that changed until then. */
-  draw(): void {
+  draw(fine = this.drawing.smooth): void {
     clearTimeout(this.late);
+    clearTimeout(this.calm);
     this.late = 0;
+    this.fine = fine;
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
       if (this.canvas.clientWidth === 0 && !this.plan.shown) return;
+      this.sharpen();
       const eye = this.direction;
       this.stock.setEye(eye.x, eye.y, eye.z);
       const began = performance.now();
       if (this.plan.shown) this.renderPlan();
       if (this.canvas.clientWidth > 0) this.render();
-      if (this.timed) {
+      // Of one with edges smoothed after the others, nobody waits for the next.
+      const moves = this.drawing.smooth || !this.fine;
+      if (this.timed && moves) {
         this.wait();
         this.spent = performance.now() - began;
       }
       this.labels.draw(this.eye);
       this.frames += 1;
+      if (!moves) this.smoothed += 1;
       this.watcher.drawn(this);
+      if (!this.fine) this.calm = window.setTimeout(() => this.draw(true), CALM);
     });
+  }
+
+  /** Pixels as the device has them. By software one for each of the page, and four for each once nothing moves. */
+  private sharpen(): void {
+    const ratio = this.drawing.smooth ? Math.min(2, devicePixelRatio) : this.fine ? 2 : 1;
+    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
+    this.stock.uniforms.ratio!.value = ratio;
   }
 
   /** To read a pixel is to wait until all is drawn. */
@@ -366,6 +383,7 @@ export class MachineView {
     const began = performance.now();
     this.wireframe();
     this.stock.nearer(this.cellPixels);
+    this.stock.compile();
     this.paths.setSize(this.canvas.clientWidth, this.canvas.clientHeight, 1);
     this.renderer.setViewport(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
     this.renderer.render(this.scene, this.camera);
@@ -524,7 +542,29 @@ function around(a: Box, b: Box): Box {
   return { low: [x0, y0, z0], high: [x1, y1, z1] };
 }
 
-/** Whether the browser draws with WebGL 2. */
-export function hasWebgl(): boolean {
-  return document.createElement("canvas").getContext("webgl2") !== null;
+/** What a picture is drawn with. */
+export interface Drawing {
+  context: WebGL2RenderingContext;
+  /** Whether edges are smooth in every picture: by software that takes as long as the rest. */
+  smooth: boolean;
+}
+
+/** What browsers call graphics by software. */
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+
+/** How a canvas is drawn on; nothing where WebGL 2 is missing. */
+export function drawingOn(canvas: HTMLCanvasElement): Drawing | undefined {
+  const smooth = hasGraphics();
+  const context = canvas.getContext("webgl2", { antialias: smooth, powerPreference: "high-performance" });
+  return context ? { context, smooth } : undefined;
+}
+
+/** Whether the device draws by something else than software, as far as the browser tells. */
+function hasGraphics(): boolean {
+  const trial = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  if (!trial) return false;
+  const names = trial.getExtension("WEBGL_debug_renderer_info");
+  const name = String(trial.getParameter(names?.UNMASKED_RENDERER_WEBGL ?? trial.RENDERER));
+  trial.getExtension("WEBGL_lose_context")?.loseContext();
+  return !SOFTWARE.test(name);
 }
