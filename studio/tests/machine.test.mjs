@@ -382,12 +382,12 @@ page("how fine the device can draw is known from the first pictures, before anyb
 
 both("an edit brings one part, and the picture as fine as it was", {}, async (own) => {
   await type(own, SLOT);
+  await own.locator("#editor .cm-content").click();
+  await own.keyboard.press("Control+Home");
   await own.waitForTimeout(2500);
   // Without those that only smooth the edges, by software, once nothing moves.
   const pictures = async () => Number(await data(own, "frames")) - Number(await data(own, "smoothed"));
   const [shown, before, fineness] = [Number(await data(own, "shown")), await pictures(), await data(own, "fineness")];
-  await own.locator("#editor .cm-content").click();
-  await own.keyboard.press("Control+Home");
   await own.keyboard.press("Enter");
   await own.waitForFunction((before) => Number(document.querySelector("#canvas").dataset.shown) > before, shown);
   await ready(own);
