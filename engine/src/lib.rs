@@ -36,18 +36,19 @@ use self::program::Files;
 pub struct Engine {
     files: Files,
     outputs: Vec<(&'static str, Vec<u8>)>,
-    /// The program that was cut last.
     kept: simulate::Kept,
 }
 
 impl Engine {
     /// Keeps a file, in the place of another of its name.
     pub fn put(&mut self, name: &str, bytes: Vec<u8>) {
+        self.kept.forget_moves();
         self.files.put(name, bytes);
     }
 
     /// Makes dialects known to the requests from now on; without it, the built-in ones are.
     pub fn know(&mut self, dialects: Dialects) {
+        self.kept.forget_moves();
         self.files.dialects = dialects;
     }
 

@@ -1,9 +1,10 @@
 //! Requests about the part: the moves of a program, the part that it cuts, and that part after any move.
 //!
-//! The program that was cut last is kept, so that going to another moment is no new work.
+//! The program that was cut last is kept, so that going to another moment is no new work; and one whose moves were asked for, so
+//! that it is executed once.
 
 use std::collections::BTreeMap;
-use std::io;
+use std::io::{self, Write as _};
 
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_driver::problem::{Exit, Problem, RequestFault};
@@ -36,8 +37,25 @@ use crate::request::{One, Seek, Simulate};
 #[cfg(not(target_arch = "wasm32"))]
 const PIXELS: usize = 1200;
 
-/// The program that was cut last.
-pub(crate) type Kept = Option<Box<CutProgram>>;
+/// Programs that are kept from one request to the next.
+#[derive(Debug, Default)]
+pub(crate) struct Kept {
+    /// The one that was cut last.
+    cut: Option<Box<CutProgram>>,
+    /// The one whose moves were asked for last, with what was reported of it, until a file is another.
+    executed: Option<Box<(One, Executed, Vec<u8>)>>,
+}
+
+impl Kept {
+    /// Files, or dialects, are no longer those that a program was executed with.
+    pub(crate) fn forget_moves(&mut self) {
+        self.executed = None;
+    }
+
+    fn cut(&self) -> Result<&CutProgram, RequestFault> {
+        self.cut.as_deref().ok_or(RequestFault::NothingCut)
+    }
+}
 
 /// A program that was cut.
 struct Done {
@@ -63,6 +81,7 @@ impl Done {
 }
 
 /// A program that was executed.
+#[derive(Debug)]
 struct Executed {
     path: Path,
     /// Its modes as columns.
@@ -117,9 +136,36 @@ fn moves(path: &Path) -> Result<Vec<u8>, Problem> {
 }
 
 /// The moves of a program.
-pub(crate) fn path(one: &One, files: &Files, messages: &mut Buffer) -> Result<(Exit, Outputs), Problem> {
-    let Some(executed) = execute(one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
-    Ok((Exit::Done, vec![("path", moves(&executed.path)?), ("modes", executed.modes)]))
+pub(crate) fn path(
+    one: &One,
+    files: &Files,
+    kept: &mut Kept,
+    messages: &mut Buffer,
+) -> Result<(Exit, Outputs), Problem> {
+    kept.forget_moves();
+    let mut told = Buffer::no_color();
+    let executed = execute(&with_datum(one.clone(), files)?, files, &mut told);
+    let _ = messages.write_all(told.as_slice());
+    let Some(executed) = executed? else { return Ok((Exit::Refused, Vec::new())) };
+    let outputs = vec![("path", moves(&executed.path)?), ("modes", executed.modes.clone())];
+    kept.executed = Some(Box::new((one.clone(), executed, told.into_inner())));
+    Ok((Exit::Done, outputs))
+}
+
+/// Executes a program, unless its moves were asked for just before; `None` where it was refused, which has been reported.
+fn executed(
+    one: &One,
+    files: &Files,
+    kept: &mut Kept,
+    messages: &mut Buffer,
+) -> Result<Option<Executed>, Problem> {
+    match kept.executed.take().map(|own| *own) {
+        Some((own, executed, told)) if own == *one => {
+            let _ = messages.write_all(&told);
+            Ok(Some(executed))
+        }
+        _ => execute(&with_datum(one.clone(), files)?, files, messages),
+    }
 }
 
 /// A body as it is stated; a file is one of the engine's.
@@ -181,13 +227,15 @@ pub(crate) fn simulate(
     kept: &mut Kept,
     messages: &mut Buffer,
 ) -> Result<(Exit, Outputs), Problem> {
-    *kept = None;
+    kept.cut = None;
     let read = |text: &String| tooling::stated(text).map_err(|_| RequestFault::Tool(text.clone()));
     let stated = asked.tools.iter().map(read).collect::<Result<BTreeMap<_, _>, _>>()?;
     let row = row(asked.project.as_deref(), &asked.file, files)?;
     let bench = bench(asked, row.as_ref(), files, messages)?;
-    let one = with_datum(asked.one(), files)?;
-    let Some(mut executed) = execute(&one, files, messages)? else { return Ok((Exit::Refused, Vec::new())) };
+    let one = asked.one();
+    let Some(mut executed) = executed(&one, files, kept, messages)? else {
+        return Ok((Exit::Refused, Vec::new()));
+    };
     let (path, modes) = (moves(&executed.path)?, std::mem::take(&mut executed.modes));
     let fitted = tooling::tools(&executed.path, &stated, executed.profile.as_deref())
         .map_err(|fault| told::no_cutter(&fault))?;
@@ -215,7 +263,7 @@ pub(crate) fn simulate(
     let done = all.swap_remove(0).cut;
     let mut outputs = vec![("document", document), ("path", path), ("modes", modes)];
     outputs.extend(part(&done));
-    *kept = Some(Box::new(done));
+    kept.cut = Some(Box::new(done));
     Ok((if is_sound { Exit::Done } else { Exit::Refused }, outputs))
 }
 
@@ -313,14 +361,14 @@ fn words([a, b]: [u32; 2], [low, high]: [f32; 2]) -> impl Iterator<Item = u8> {
 
 /// Shows the part after so many moves.
 pub(crate) fn seek(asked: Seek, kept: &mut Kept) -> Result<(Exit, Outputs), Problem> {
-    let cut = kept.as_mut().ok_or(RequestFault::NothingCut)?;
+    let cut = kept.cut.as_mut().ok_or(RequestFault::NothingCut)?;
     cut.simulation.seek(asked.moves);
     Ok((Exit::Done, part(cut)))
 }
 
 /// The part that is shown, as a body of triangles.
 pub(crate) fn stl(kept: &Kept) -> Result<(Exit, Outputs), Problem> {
-    let cut = kept.as_ref().ok_or(RequestFault::NothingCut)?;
+    let cut = kept.cut()?;
     let bytes = parts::stl(cut.simulation.map(), parts::floor(cut));
     let bytes = bytes.map_err(|e| Problem::file("write", "the part", &e))?;
     Ok((Exit::Done, vec![("stl", bytes)]))
@@ -329,7 +377,7 @@ pub(crate) fn stl(kept: &Kept) -> Result<(Exit, Outputs), Problem> {
 /// A picture of the part that is shown.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn picture(asked: &Picture, kept: &Kept) -> Result<(Exit, Outputs), Problem> {
-    let cut = kept.as_ref().ok_or(RequestFault::NothingCut)?;
+    let cut = kept.cut()?;
     let drawn = match (asked.form, asked.view) {
         (Form::Svg, _) => parts::svg(cut, &asked.title).map(String::into_bytes),
         (Form::Png, View::Plan) => parts::png(&parts::picture(cut, Look::Plan, PIXELS)),

@@ -96,7 +96,7 @@ fn verb(
         Request::Rename(asked) => editing::renamed(asked, files, messages),
         Request::Project(asked) => project::project(asked, files, messages),
         Request::Stated(asked) => project::stated(asked, files),
-        Request::Path(one) => simulate::path(&simulate::with_datum(one.clone(), files)?, files, messages),
+        Request::Path(one) => simulate::path(one, files, kept, messages),
         Request::Simulate(asked) => simulate::simulate(asked, files, kept, messages),
         Request::Seek(asked) => simulate::seek(*asked, kept),
         Request::Stl(_) => simulate::stl(kept),

@@ -163,6 +163,40 @@ fn a_part_is_shown_after_any_move() {
     }
 }
 
+/// Moves that were asked for are not made anew for the part; a file, or a request, that is another has its own.
+#[test]
+fn a_program_whose_moves_are_known_is_cut_as_any_other() {
+    let simulate = |more: &str| format!(r#"{{ "verb": "simulate", "file": "a.nc", "cells": 60 {more} }}"#);
+    let path = r#"{ "verb": "path", "file": "a.nc" }"#;
+    // Its last line is never reached, which is told.
+    let one = SLOT.replace("M30", "M30\nG0 X0.");
+    let other = one.replace("Z-2.", "Z-3.");
+    let files = [("a.nc", one.as_str())];
+    let outputs = |engine: &Engine| -> Vec<(&str, Vec<u8>)> {
+        engine.outputs().map(|(name, bytes)| (name, bytes.to_vec())).collect()
+    };
+    let (_, alone) = done(&files, &simulate(""));
+    assert!(text(&alone, "messages").contains("NC0111"), "{}", text(&alone, "messages"));
+    let (code, mut engine) = done(&files, path);
+    assert_eq!((code, text(&engine, "messages").contains("NC0111")), (0, true));
+    for _ in 0..2 {
+        engine.run(&simulate(""));
+        assert_eq!(outputs(&engine), outputs(&alone));
+    }
+    engine.run(path);
+    engine.put("a.nc", other.clone().into_bytes());
+    engine.run(&simulate(""));
+    let (_, changed) = done(&[("a.nc", &other)], &simulate(""));
+    assert_eq!(outputs(&engine), outputs(&changed));
+    assert_ne!(outputs(&engine), outputs(&alone));
+    // Another request: on a machine.
+    engine.run(path);
+    engine.run(&simulate(r#", "machine": "fanuc-vmc", "zero": [-200, -200, -300]"#));
+    let (_, placed) =
+        done(&[("a.nc", &other)], &simulate(r#", "machine": "fanuc-vmc", "zero": [-200, -200, -300]"#));
+    assert_eq!(outputs(&engine), outputs(&placed));
+}
+
 #[test]
 fn parts_of_two_programs_are_compared() {
     // The same way with no word of the tool's size but in the first; then a slot 0.1 mm less deep.

@@ -118,8 +118,17 @@ export class Session {
     this.generation += 1;
     this.idle.set(false);
     clearTimeout(this.timer);
-    const wait = Math.min(LATE, Math.max(SOON, (this.lasted - this.cutLasted) * 0.6));
+    const wait = Math.min(LATE, Math.max(SOON, this.lasted * 0.25));
     this.timer = window.setTimeout(() => void this.work(), wait);
+  }
+
+  /** The engines whose work takes its time; on a server they are one. */
+  private get working(): Set<Engine> {
+    return new Set(this.engines && [this.engines.check, this.engines.heavy]);
+  }
+
+  private get all(): Engine[] {
+    return this.engines ? [this.engines.quick, ...this.working] : [];
   }
 
   /** Another project is open: nothing of the one before holds. */
@@ -136,7 +145,7 @@ export class Session {
     this.stated.set(undefined);
     this.calls = "";
     // A program of another folder is no program that this one calls.
-    [this.engines?.quick, this.engines?.heavy].forEach((one) => one?.clear?.());
+    this.all.forEach((one) => one.clear?.());
     this.coloured.clear();
     this.change();
   }
@@ -145,7 +154,7 @@ export class Session {
   cancel(): void {
     clearTimeout(this.timer);
     this.generation += 1;
-    this.engines?.heavy.cancel();
+    this.working.forEach((one) => one.cancel());
     this.state.set("ready");
   }
 
@@ -274,25 +283,30 @@ export class Session {
   }
 
   private async work(): Promise<void> {
-    const [project, heavy] = [this.project.get(), this.engines?.heavy];
-    if (!project || !heavy) return;
-    if (heavy.waiting > 0) {
+    const [project, engines] = [this.project.get(), this.engines];
+    if (!project || !engines) return;
+    const { heavy } = engines;
+    const working = [...this.working];
+    if (working.some((one) => one.waiting > 0)) {
       if (performance.now() - this.began < YOUNG) {
         this.timer = window.setTimeout(() => void this.work(), 40);
         return;
       }
-      heavy.cancel();
+      working.forEach((one) => one.cancel());
     }
     const own = this.generation;
     this.began = performance.now();
     this.state.set("working");
     try {
-      heavy.put(project.file, bytesOf(project, this.text()));
+      const bytes = bytesOf(project, this.text());
+      for (const one of working) {
+        one.put(project.file, bytes);
+        await this.putMachines(one, project.choices);
+      }
       for (const [name, bytes] of Object.entries(project.bodies ?? {})) heavy.put(name, bytes);
-      await this.putMachines(heavy, project.choices);
       if (project.server && this.calls === project.id) await heavy.called?.(project.server.program);
       await this.readStated(project);
-      await this.steps(heavy, project, () => own === this.generation);
+      await this.steps(engines, project, () => own === this.generation);
       if (own === this.generation) {
         this.lasted = performance.now() - this.began;
         this.state.set("ready");
@@ -300,6 +314,8 @@ export class Session {
       }
     } catch (error) {
       if (error instanceof Cancelled || own !== this.generation) return;
+      // What another engine finds does not take its place.
+      this.generation += 1;
       this.checked.set({ ...NOTHING, told: error instanceof Error ? error.message : String(error) });
       this.state.set("failed");
     }
@@ -328,7 +344,7 @@ export class Session {
       if (reading !== this.reading) return;
       if (isSame(bytes, now)) continue;
       // One that is gone does not stay in the engines.
-      if (!now) [this.engines?.quick, this.engines?.heavy].forEach((one) => one?.put(name, new Uint8Array()));
+      if (!now) this.all.forEach((one) => one.put(name, new Uint8Array()));
       this.reading = undefined;
       return this.change();
     }
@@ -339,7 +355,7 @@ export class Session {
       const answer = await engines.quick.run({ verb: "stated", file: project.file, project: ANSWERS });
       return [answer.json<Stated>("document"), answer.code === 0 ? "" : answer.text("messages").trim()] as const;
     };
-    const put = (name: string, bytes: Uint8Array) => [engines.quick, engines.heavy].forEach((one) => one.put(name, bytes));
+    const put = (name: string, bytes: Uint8Array) => this.all.forEach((one) => one.put(name, bytes));
     let [stated, told]: readonly [Stated | undefined, string] = [undefined, ""];
     if (project.answers !== undefined) {
       put(ANSWERS, new TextEncoder().encode(project.answers));
@@ -363,33 +379,39 @@ export class Session {
     return { file, ...given({ from, machine, project }), from_option: fromOption };
   }
 
-  private async steps(heavy: Engine, project: Project, current: () => boolean): Promise<void> {
-    const one = this.request(project);
-    if (this.cutLasted > SLOW) {
-      // A part that takes its time comes later: until then the one before stands with the new path.
-      const answer = await heavy.run({ verb: "path", ...one, ...zero(project.choices) });
-      const bytes = answer.bytes("path");
-      if (!current()) return;
-      if (bytes) this.path.set(readPath(bytes, answer.bytes("modes")));
-    }
-    let check = await heavy.run({ verb: "check", ...one, ...zero(project.choices) });
+  private async steps({ check, heavy }: Engines, project: Project, current: () => boolean): Promise<void> {
+    const own = this.request(project);
+    const one = { ...own, ...zero(project.choices) };
+    // A part that takes its time comes later: until then the one before stands with the new path.
+    const early = this.cutLasted > SLOW ? heavy.run({ verb: "path", ...one }) : undefined;
+    let checking = check.run({ verb: "check", ...one });
+    const told = () => checking.then((answer) => (current() ? this.tellCheck(answer) : undefined));
+    // What fails is told where it is waited for.
+    const waited = <T>(answer: Promise<T>): Promise<T> => (answer.catch(() => undefined), answer);
+    let checked = waited(told());
+    const path = early && (await waited(early));
     if (!current()) return;
-    if (project.server && heavy.called && this.calls !== project.id && lacksCalled(check)) {
+    const bytes = path?.bytes("path");
+    if (bytes) this.path.set(readPath(bytes, path?.bytes("modes")));
+    if (project.server && heavy.called && this.calls !== project.id && lacksCalled(await checking)) {
       this.calls = project.id;
       // A folder that is too large, or gone, has nothing to call: the program says so.
       await heavy.called(project.server.program).catch(() => undefined);
-      check = await heavy.run({ verb: "check", ...one, ...zero(project.choices) });
+      checking = check.run({ verb: "check", ...one });
+      checked = waited(told());
       if (!current()) return;
     }
-    this.tellCheck(check);
     const began = performance.now();
-    const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), ...zero(project.choices), cells: this.cells(project.choices) });
+    const cut = await heavy.run({ verb: "simulate", ...one, ...bench(project.choices), cells: this.cells(project.choices) });
     this.cutLasted = performance.now() - began;
     if (!current()) return;
     this.tellCut(cut);
+    await checked;
+    if (!current()) return;
+    this.tellAlarms();
     if (!this.translates.get()) return this.translation.set(undefined);
     if (!project.choices.to && !project.choices.machineTo && !this.stated.get()?.to) return this.translation.set(undefined);
-    const translated = await heavy.run({ verb: "translate", ...one, ...translation(project.choices), map: true });
+    const translated = await heavy.run({ verb: "translate", ...own, ...translation(project.choices), map: true });
     if (!current()) return;
     const output = translated.bytes("output");
     this.translation.set({
@@ -415,6 +437,9 @@ export class Session {
     this.pathTold.set(this.cut ? "" : answer.text("messages"));
     this.path.set(bytes && readPath(bytes, answer.bytes("modes")));
     this.part.set(readHeights(answer));
+  }
+
+  private tellAlarms(): void {
     const alarms = (this.cut?.alarms ?? []).map(({ id, ...rest }) => ({ code: id, ...rest }));
     const checked = this.checked.get();
     if (alarms.length > 0) this.checked.set({ ...checked, problems: [...alarms, ...checked.problems] });

@@ -1,4 +1,4 @@
-//! Engines by rooms: a page has one for what the eye waits for and one for work that takes its time.
+//! Engines by rooms: a page has one for what the eye waits for, and two for work that takes its time.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,8 +11,8 @@ use ncc_exec::halt::{self, Halt};
 
 use crate::Shared;
 
-/// Rooms at most: two for each of some tabs.
-const MOST: usize = 32;
+/// Rooms at most: three for each of some tabs.
+const MOST: usize = 48;
 
 /// The engines.
 #[derive(Default)]

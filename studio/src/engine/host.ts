@@ -1,7 +1,7 @@
 // Which host the page has: the binary that serves it says so in the page's head; a static page has a worker.
 //
-// There are two engines: one for what the eye waits for (colours), one for work that takes its time and is given up
-// where newer work takes its place.
+// There are three engines: one for what the eye waits for (colours), one that checks, and one that cuts and translates. What the
+// last two do takes its time, and is given up where newer work takes its place.
 
 import type { Engine } from "./engine";
 import { Loopback, withToken } from "./loopback";
@@ -9,6 +9,7 @@ import { WorkerHost } from "./worker-host";
 
 export interface Engines {
   quick: Engine;
+  check: Engine;
   heavy: Engine;
 }
 
@@ -26,7 +27,9 @@ export async function openEngines(rooms?: (room: string) => Engine): Promise<Eng
   const remote = rooms ?? (token === undefined ? undefined : (own: string) => new Loopback(withToken(token), `engine/${own}`));
   if (remote) {
     const own = room();
-    return { quick: remote(`${own}-quick`), heavy: remote(`${own}-heavy`) };
+    const heavy = remote(`${own}-heavy`);
+    // A server works for many: what one of them asks is done one after the other.
+    return { quick: remote(`${own}-quick`), check: rooms ? heavy : remote(`${own}-check`), heavy };
   }
   if (!WebAssembly.validate(new Uint8Array(VECTOR))) throw new TooOld("WebAssembly SIMD");
   // Workers fetch and compile while the page has its own work, and hand the module on without it.
@@ -43,8 +46,8 @@ export async function openEngines(rooms?: (room: string) => Engine): Promise<Eng
   ];
   // What goes wrong here goes wrong again with the program, and is told then.
   warm.forEach((one) => void one.catch(() => undefined));
-  await Promise.all([quick.started, heavy.started]);
-  return { quick, heavy };
+  const [module] = await Promise.all([quick.started, heavy.started]);
+  return { quick, check: new WorkerHost("worker.js", module), heavy };
 }
 
 /** Who serves the page: `worker` (any web server), `loopback` (`ncc studio`) or `serve` (`ncc serve`). */

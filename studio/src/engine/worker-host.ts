@@ -14,9 +14,9 @@ export class WorkerHost implements Engine {
   private readonly pending = new Map<number, Pending>();
   private last = 0;
   private module: WebAssembly.Module | undefined;
-  private begun!: { done(): void; failed(error: Error): void };
-  /** Fails where the module does not come; what is asked before waits for it. */
-  readonly started = new Promise<void>((done, failed) => (this.begun = { done, failed }));
+  private begun!: { done(module: WebAssembly.Module): void; failed(error: Error): void };
+  /** Gives the module, and fails where it does not come; what is asked before waits for it. */
+  readonly started = new Promise<WebAssembly.Module>((done, failed) => (this.begun = { done, failed }));
 
   constructor(
     private readonly url: string,
@@ -57,7 +57,7 @@ export class WorkerHost implements Engine {
       if (message.kind === "failed") return this.restart(new Error(message.reason));
       if (message.kind === "started") {
         this.module = message.module;
-        return this.begun.done();
+        return this.begun.done(message.module);
       }
       const one = this.pending.get(message.id);
       this.pending.delete(message.id);
