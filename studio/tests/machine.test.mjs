@@ -328,19 +328,19 @@ page("the time of a picture is shown on wish, and nothing is drawn while nothing
 
 page("by software a picture has smooth edges once nothing moves, and a quarter of the pixels until then", {}, async (own) => {
   await drawn(own);
-  const calm = () => own.evaluate(() => [document.querySelector("#canvas")].map(({ width, clientWidth, dataset }) => [width / clientWidth, Number(dataset.smoothed)])[0]);
-  const [sharp, smoothed] = await calm();
-  assert.equal(sharp, 2);
+  const calm = () => own.evaluate(() => [document.querySelector("#canvas")].map(({ width, clientWidth, dataset }) => [width / clientWidth, dataset.rough, Number(dataset.smoothed)])[0]);
+  const [, , smoothed] = await calm();
+  assert.deepEqual(await calm(), [2, undefined, smoothed]);
   const moving = await own.evaluate(async () => {
     const canvas = document.querySelector("#canvas");
     const { frames } = canvas.dataset;
     canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "+" }));
     while (canvas.dataset.frames === frames) await new Promise(requestAnimationFrame);
-    return canvas.width / canvas.clientWidth;
+    return [canvas.dataset.rough, getComputedStyle(canvas).objectFit];
   });
-  assert.equal(moving, 1);
+  assert.deepEqual(moving, ["", "none"]);
   await drawn(own);
-  assert.deepEqual(await calm(), [2, smoothed + 1]);
+  assert.deepEqual(await calm(), [2, undefined, smoothed + 1]);
 });
 
 both("many moves are lines for several where the device draws slowly, and a click finds its move all the same", {}, async (own) => {

@@ -59,6 +59,10 @@ export class Paths {
   readonly pick = new Group();
   private readonly uniforms = shared();
   private readonly pickUniforms = shared();
+  private readonly materials = {
+    drawn: materials(this.uniforms, FRAGMENT),
+    pick: materials(this.pickUniforms, PICK),
+  };
   private path: Path | undefined;
 
   /** Another path, for a device that draws slowly or may do so; one that is like the last is drawn as finely. */
@@ -75,9 +79,9 @@ export class Paths {
     this.pickUniforms.width!.value = wide ? 7 : 0;
     for (let base = 0; base < path.pieces; base += CHUNK) {
       const moves = Math.min(CHUNK, path.pieces - base);
-      const texture = textureOf(path, base, moves, operations);
-      this.drawn.add(piece(texture, base, moves, wide, this.uniforms, FRAGMENT));
-      this.pick.add(piece(texture, base, moves, wide, this.pickUniforms, PICK));
+      const own = { moves: { value: textureOf(path, base, moves, operations) }, base: { value: base }, count: { value: moves } };
+      this.drawn.add(piece(wide, moves, this.materials.drawn(base / CHUNK, own)));
+      this.pick.add(piece(wide, moves, this.materials.pick(base / CHUNK, own)));
     }
     // Where there are many, few are drawn until it is known how quick the device is.
     this.thin(alike ? this.every : wide && !slow ? 1 : Math.ceil(pieces / FEW));
@@ -157,7 +161,6 @@ export class Paths {
     for (const group of [this.drawn, this.pick]) {
       for (const child of [...group.children] as Mesh<BufferGeometry, RawShaderMaterial>[]) {
         (child.material.uniforms.moves?.value as DataTexture).dispose();
-        child.material.dispose();
         child.geometry.dispose();
         group.remove(child);
       }
@@ -208,23 +211,27 @@ function textureOf(path: Path, base: number, moves: number, operations: Operatio
   return texture;
 }
 
-function piece(
-  texture: DataTexture,
-  base: number,
-  moves: number,
-  wide: boolean,
-  uniforms: Record<string, IUniform>,
-  fragmentShader: string,
-): Mesh | LineSegments {
+/** Gives the material of a piece by its place, with uniforms of its own. A material stays for the paths that follow: to compile its
+ * shaders takes longer than a picture. */
+function materials(uniforms: Record<string, IUniform>, fragmentShader: string): (at: number, own: Record<string, IUniform>) => RawShaderMaterial {
+  const all: RawShaderMaterial[] = [];
+  return (at, own) => {
+    const material = (all[at] ??= new RawShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: VERTEX,
+      fragmentShader,
+      uniforms: { ...uniforms },
+      side: DoubleSide,
+    }));
+    Object.assign(material.uniforms, own);
+    return material;
+  };
+}
+
+/** A piece of so many moves, lines of some width or lines of the device. */
+function piece(wide: boolean, moves: number, material: RawShaderMaterial): Mesh | LineSegments {
   const geometry = new BufferGeometry();
   geometry.setDrawRange(0, moves * (wide ? 6 : 2));
-  const material = new RawShaderMaterial({
-    glslVersion: GLSL3,
-    vertexShader: VERTEX,
-    fragmentShader,
-    side: DoubleSide,
-    uniforms: { ...uniforms, moves: { value: texture }, base: { value: base }, count: { value: moves } },
-  });
   const made = wide ? new Mesh(geometry, material) : new LineSegments(geometry, material);
   // It has no vertices that a box could be made of.
   made.frustumCulled = false;

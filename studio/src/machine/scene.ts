@@ -18,7 +18,7 @@ import {
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
 import type { Fixture, Tool } from "../engine/part";
 import type { Box } from "../engine/path";
-import { linesOf } from "./lines";
+import { isOfLines, linesOf } from "./lines";
 
 /** A step of 1, 2 or 5 and zeros, so that about so many fit in. */
 export function stepFor(length: number, count: number): number {
@@ -97,7 +97,7 @@ export function frameOf(box: Box, color: Color, dash: number): Mesh {
       points.push(...ends.flat());
     }
   }
-  return linesOf(points, color, dash);
+  return linesOf(points, color, { dash });
 }
 
 /** What holds the part: a box, a cylinder, or a body of triangles. */
@@ -135,6 +135,6 @@ export function free(drawing: Object3D): void {
   drawing.traverse((child) => {
     if (!(child instanceof Mesh)) return;
     child.geometry.dispose();
-    (child.material as Material).dispose();
+    if (!isOfLines(child.material)) (child.material as Material).dispose();
   });
 }

@@ -15,7 +15,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Cut, Tool } from "../engine/part";
 import type { Box, Path } from "../engine/path";
 import { Labels } from "./labels";
-import { linesOf } from "./lines";
+import { linesOf, setLinesSize } from "./lines";
 import { sunOf, type Look } from "./look-card";
 import { Paths, corner, type Colouring } from "./paths";
 import { endsOf, seenAt, type Eye, type Point } from "./pick";
@@ -111,6 +111,7 @@ export class MachineView {
     private readonly watcher: Watcher,
   ) {
     this.renderer = new WebGLRenderer({ canvas, context: drawing.context });
+    this.renderer.setPixelRatio(drawing.smooth ? Math.min(2, devicePixelRatio) : 2);
     this.scene.add(this.surroundings, this.bench, this.stock.drawn, this.stock.faces.drawn, this.face.drawn, this.paths.drawn, this.measured, this.tool, lights());
     this.pickScene.add(this.stock.pick, this.stock.faces.pick, this.paths.pick);
     this.pickScene.background = new Color(0);
@@ -246,8 +247,7 @@ export class MachineView {
     const [a, b] = places;
     if (a && b) {
       const ink = getComputedStyle(document.documentElement).getPropertyValue("--mark").trim();
-      const line = linesOf([...a, ...b], new Color(ink));
-      line.material.depthTest = false;
+      const line = linesOf([...a, ...b], new Color(ink), { over: true });
       line.renderOrder = 9;
       this.measured.add(line);
     }
@@ -344,7 +344,7 @@ export class MachineView {
     requestAnimationFrame(() => {
       this.asked = false;
       if (this.canvas.clientWidth === 0 && !this.plan.shown) return;
-      this.sharpen();
+      this.canvas.toggleAttribute("data-rough", !this.drawing.smooth && !this.fine);
       const eye = this.direction;
       this.stock.setEye(eye.x, eye.y, eye.z);
       const began = performance.now();
@@ -364,11 +364,21 @@ export class MachineView {
     });
   }
 
-  /** Pixels as the device has them. By software one for each of the page, and four for each once nothing moves. */
-  private sharpen(): void {
-    const ratio = this.drawing.smooth ? Math.min(2, devicePixelRatio) : this.fine ? 2 : 1;
-    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
-    this.stock.uniforms.ratio!.value = ratio;
+  /** Pixels for each of the page, along a side. By software one, and two once nothing moves. */
+  private get ratio(): number {
+    return this.drawing.smooth || this.fine ? this.renderer.getPixelRatio() : 1;
+  }
+
+  /** Draws the scene into as many pixels of the canvas as the ratio asks. A canvas of another size would take as long as a picture. */
+  private fill(camera: OrthographicCamera, width: number, height: number): void {
+    const share = this.ratio / this.renderer.getPixelRatio();
+    this.paths.setSize(width, height, 1);
+    setLinesSize(width, height);
+    this.stock.uniforms.ratio!.value = this.ratio;
+    this.renderer.setViewport(0, 0, width * share, height * share);
+    this.renderer.setScissor(0, 0, width * share, height * share);
+    this.renderer.setScissorTest(share < 1);
+    this.renderer.render(this.scene, camera);
   }
 
   /** To read a pixel is to wait until all is drawn. */
@@ -384,9 +394,7 @@ export class MachineView {
     this.wireframe();
     this.stock.nearer(this.cellPixels);
     this.stock.compile();
-    this.paths.setSize(this.canvas.clientWidth, this.canvas.clientHeight, 1);
-    this.renderer.setViewport(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
-    this.renderer.render(this.scene, this.camera);
+    this.fill(this.camera, this.canvas.clientWidth, this.canvas.clientHeight);
     if (this.trials === 0 || !this.path) return;
     this.trials -= 1;
     this.wait();
@@ -426,10 +434,8 @@ export class MachineView {
     hidden.forEach((one) => (one.visible = false));
     this.frame.visible = true;
     const [width, height] = this.plan.prepare();
-    this.paths.setSize(width, height, 1);
-    this.renderer.setViewport(0, 0, width, height);
-    this.renderer.render(this.scene, this.plan.camera);
-    const ratio = this.renderer.getPixelRatio();
+    this.fill(this.plan.camera, width, height);
+    const { ratio } = this;
     this.plan.copy(this.canvas, Math.floor(width * ratio), Math.floor(height * ratio));
     this.frame.visible = false;
     hidden.forEach((one) => (one.visible = true));

@@ -32,7 +32,9 @@ interface Chart {
 export class Charts {
   private readonly charts: Chart[];
   private path: Path | undefined;
-  private time = 0;
+  /** The moment: seconds, the piece under way, and how much of it is done. */
+  private now: [number, number, number] = [0, -1, 1];
+  private later = 0;
   private readonly sync = uPlot.sync("time");
 
   constructor(
@@ -50,9 +52,18 @@ export class Charts {
     new ResizeObserver(() => this.draw()).observe(host);
   }
 
+  /** Another path. The part is drawn first: by software lines of charts take as long. */
   setPath(path: Path | undefined): void {
     this.path = path;
-    this.draw();
+    cancelAnimationFrame(this.later);
+    this.later = requestAnimationFrame(() => setTimeout(() => this.update()));
+  }
+
+  private update(): void {
+    const { path } = this;
+    if (!path || path.pieces === 0 || !this.charts.every(({ plot }) => plot)) return this.draw();
+    for (const { plot, row } of this.charts) plot?.setData(dataOf(row, path));
+    this.setTime(...this.now);
   }
 
   /** Draws all anew: the path, the size or the colours are others. */
@@ -63,11 +74,11 @@ export class Charts {
       chart.plot = undefined;
       if (this.path && this.path.pieces > 0 && visible) chart.plot = this.plot(chart, this.path);
     }
-    this.setTime(this.time);
+    this.setTime(...this.now);
   }
 
   setTime(time: number, piece = -1, share = 1): void {
-    this.time = time;
+    this.now = [time, piece, share];
     for (const { plot, line, value, row } of this.charts) {
       if (plot) {
         const x = plot.valToPos(time, "x");
@@ -108,7 +119,7 @@ export class Charts {
       ],
       series: [{}, { stroke: ink(row.ink), width: 1.2, points: { show: false } }],
     };
-    const plot = new uPlot(options, row.curve?.(path) ?? curve(path, ...row.of(path)), box);
+    const plot = new uPlot(options, dataOf(row, path), box);
     plot.over.append(line);
     let down = 0;
     plot.over.addEventListener("pointerdown", (event) => (down = event.clientX));
@@ -119,4 +130,8 @@ export class Charts {
     });
     return plot;
   }
+}
+
+function dataOf(row: Row, path: Path): Curve {
+  return row.curve?.(path) ?? curve(path, ...row.of(path));
 }
