@@ -25,6 +25,7 @@ const ROOMS: &[&str] = &[
     "driver",
     "engine",
     "frontends",
+    "frontends/ir",
     "ir",
     "ir/dialects",
     "ir/exec",
@@ -42,6 +43,7 @@ const STRICT: &[&str] = &[
     "cli",
     "engine",
     "frontends",
+    "frontends/ir",
     "ir/dialects",
     "machines",
 ];

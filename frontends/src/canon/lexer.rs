@@ -3,8 +3,7 @@
 use logos::{Lexer, Logos};
 use ncc_ir::expr::num::{Num, Unit};
 use ncc_ir::program::Text;
-
-use crate::common::quoted::unquote;
+use ncc_ir_text::unquote;
 
 /// Why a stretch of text is no word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

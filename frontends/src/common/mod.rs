@@ -1,5 +1,5 @@
 //! What readers share: words with exact numbers, the recognisers of plain blocks, what is known of the
-//! facts that a program sets; and quoted texts of the two text forms.
+//! facts that a program sets.
 //!
 //! ```text
 //! N10 G1 X10.5 F200      fast_parse::read    four words with their digits and spans
@@ -19,7 +19,6 @@ pub(crate) mod number;
 pub(crate) mod only_value;
 pub(crate) mod pieces;
 pub(crate) mod plain_words;
-pub(crate) mod quoted;
 pub(crate) mod saved;
 pub(crate) mod setting;
 pub(crate) mod sort;

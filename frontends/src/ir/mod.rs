@@ -29,36 +29,18 @@
 //! Each line is parsed on its own, so that after a fault the next line is read as if nothing had
 //! happened. Not here: whether the program makes sense.
 
-mod lexer;
-mod line;
-mod scan;
-mod word;
-
-use lalrpop_util::ParseError;
-use logos::Logos;
 use ncc_dialects::Settings;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::syntax::{Expected, Found};
 use ncc_ir::unsupported::TextUnsupported;
+use ncc_ir_text::{Line, parse};
 
-use self::lexer::Token;
-use self::line::{Line, Refusal};
-use self::word::LexFault;
 use crate::batch::Batch;
-
-lalrpop_util::lalrpop_mod!(
-    #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused, private_interfaces)]
-    grammar,
-    "/ir/grammar.rs"
-);
 
 /// The version of the text form that is read and written.
 const VERSION: u32 = 1;
-
-/// Most words on a line: an expression is at most that deep.
-const WORDS: usize = 1000;
 
 /// Most bodies inside each other.
 const DEPTH: usize = 100;
@@ -139,7 +121,7 @@ impl Reader {
         };
         let parsed = match refused {
             Some(refused) => Err(refused),
-            None => self.parse(text).map_err(|(fault, l, r)| (fault, place(l, r))),
+            None => parse(text).map_err(|(fault, l, r)| (fault, place(l, r))),
         };
         let result =
             parsed.and_then(|parsed| self.take(parsed, at, place(0, line.trim_ascii_end().len()), out));
@@ -153,15 +135,6 @@ impl Reader {
                 self.open.push(Frame { opened: span, owner: Owner::Refused, body: Vec::new() });
             }
         }
-    }
-
-    fn parse(&self, text: &str) -> Result<Line, (Fault, usize, usize)> {
-        let words = Token::lexer(text).spanned().enumerate().map(|(count, (token, place))| match token {
-            _ if count >= WORDS => Err(Refusal::TooLong),
-            Ok(token) => Ok((place.start, token, place.end)),
-            Err(fault) => Err(Refusal::Word(place.start, place.end, fault)),
-        });
-        grammar::LineParser::new().parse(words).map_err(|e| explain(e, text))
     }
 
     /// Puts a line in its place.
@@ -186,7 +159,7 @@ impl Reader {
                 return Err((fault, span));
             }
             Line::Program(name) => out.name = name,
-            Line::Assumed(facts) => out.assumed = line::with(out.assumed, facts),
+            Line::Assumed(facts) => out.assumed = facts.or(out.assumed),
             Line::Procedure(_) if !self.open.is_empty() => {
                 return Err(syntax("procedure", Expected::EndOfBody));
             }
@@ -310,62 +283,4 @@ fn fill(op: &mut Op, first: Vec<Stmt>, second: Vec<Stmt>) {
             *place = body;
         }
     }
-}
-
-/// The fault of a line that could not be parsed, with its place in the line.
-fn explain(error: ParseError<usize, Token, Refusal>, text: &str) -> (Fault, usize, usize) {
-    match error {
-        ParseError::UnrecognizedToken { token: (l, Token::UnknownName, r), .. }
-        | ParseError::ExtraToken { token: (l, Token::UnknownName, r) } => {
-            (Fault::UnknownCode { code: text[l..r].into() }, l, r)
-        }
-        ParseError::UnrecognizedToken { token: (l, _, r), expected } => {
-            (Fault::Syntax { found: text[l..r].into(), expected: list(&expected) }, l, r)
-        }
-        ParseError::ExtraToken { token: (l, _, r) } => {
-            (Fault::Syntax { found: text[l..r].into(), expected: Expected::EndOfLine }, l, r)
-        }
-        ParseError::UnrecognizedEof { expected, .. } => {
-            let end = text.trim_end().len();
-            (Fault::Syntax { found: Found::EndOfLine, expected: list(&expected) }, end, end)
-        }
-        ParseError::InvalidToken { location } => word(text, location, location, LexFault::Character),
-        ParseError::User { error: Refusal::Word(l, r, fault) } => word(text, l, r, fault),
-        ParseError::User { error: Refusal::Meaning(l, r, fault) } => (fault, l, r),
-        ParseError::User { error: Refusal::TooLong } => {
-            let expected = Expected::Words { most: WORDS };
-            (Fault::Syntax { found: Found::ManyWords, expected }, 0, text.len())
-        }
-    }
-}
-
-/// The fault of a stretch of text that is no word.
-fn word(text: &str, l: usize, r: usize, fault: LexFault) -> (Fault, usize, usize) {
-    match fault {
-        LexFault::Number => (Fault::BadNumber { text: text[l..r].into() }, l, r),
-        LexFault::Escape => {
-            (Fault::Syntax { found: text[l..r].into(), expected: Expected::PlainEscapes }, l, r)
-        }
-        LexFault::Character => match text[l..].chars().next() {
-            Some('"') => (Fault::UnclosedComment, l, text.len()),
-            Some(found) => (Fault::UnexpectedCharacter { found }, l, l + found.len_utf8()),
-            None => (Fault::NotText, l, r),
-        },
-    }
-}
-
-/// What was expected, for reading; a long list is cut.
-fn list(expected: &[String]) -> Expected {
-    const SHOWN: usize = 6;
-    let mut text = String::new();
-    for (place, name) in expected.iter().take(SHOWN).enumerate() {
-        let name = name.trim_matches('"');
-        let quote = if name.contains(' ') { "" } else { "`" };
-        let comma = if place > 0 { ", " } else { "" };
-        text.extend([comma, quote, name, quote]);
-    }
-    if expected.len() > SHOWN {
-        text.push_str(", …");
-    }
-    Expected::Text(text.into())
 }

@@ -13,11 +13,11 @@ use ncc_ir::program::{
 use ncc_ir::source::Span;
 use ncc_ir::syntax::{Expected, Ranged};
 
-use super::word::{LexFault, Literal};
+use crate::word::{LexFault, Literal};
 
 /// A line. Spans count from its start.
 #[derive(Debug)]
-pub(crate) enum Line {
+pub enum Line {
     /// Nothing but a note.
     Empty,
     /// The version of the text form.
@@ -28,8 +28,15 @@ pub(crate) enum Line {
     Assumed(Modes),
     /// Opens a procedure.
     Procedure(Procedure),
-    /// Statements of one block; with `begins`, the body of the last one follows.
-    Stmts { joined: bool, items: Vec<Stmt>, begins: bool },
+    /// Statements of one block.
+    Stmts {
+        /// Whether they belong to the block of the line before.
+        joined: bool,
+        /// The statements.
+        items: Vec<Stmt>,
+        /// Whether the body of the last one follows.
+        begins: bool,
+    },
     /// Closes a body.
     End,
     /// Closes a body and opens the other branch.
@@ -60,7 +67,7 @@ pub(crate) type Pair = [Coord; 2];
 /// Words of a centre that say each from where they are measured.
 pub(crate) type About = [Option<Coord>; 3];
 
-type Parsed<T> = Result<T, lalrpop_util::ParseError<usize, super::lexer::Token, Refusal>>;
+type Parsed<T> = Result<T, lalrpop_util::ParseError<usize, crate::lexer::Token, Refusal>>;
 
 fn refuse<T>(l: usize, r: usize, fault: Fault) -> Parsed<T> {
     Err(lalrpop_util::ParseError::User { error: Refusal::Meaning(l, r, fault) })

@@ -5,8 +5,8 @@ use ncc_ir::expr::num::Unit;
 use ncc_ir::expr::system::System;
 use ncc_ir::program::Text;
 
-use super::word::{LexFault, Literal};
-use crate::common::quoted::unquote;
+use crate::quoted::unquote;
+use crate::word::{LexFault, Literal};
 
 /// A number with its unit.
 pub(super) fn number(text: &str) -> Result<Literal, LexFault> {

@@ -8,8 +8,8 @@ use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::{Function, Var};
 use ncc_ir::program::{Attribute, Detour, Op, Output, Text, ToolValue, Type};
 
-use super::scan::{block_number, number, quoted, variable};
-use super::word::{Form, LexFault, Literal, Valued, Worded};
+use crate::scan::{block_number, number, quoted, variable};
+use crate::word::{Form, LexFault, Literal, Valued, Worded};
 
 /// A word.
 #[derive(Clone, Debug, Logos, PartialEq)]

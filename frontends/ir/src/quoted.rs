@@ -4,7 +4,7 @@ use ncc_ir::program::Text;
 
 /// The text between two quotation marks, its escapes undone: `\"`, `\\`, `\n`, `\r`, `\t` and
 /// `\u{…}` with the number of a character in hexadecimal. `None` if an escape is none of these.
-pub(crate) fn unquote(quoted: &str) -> Option<Text> {
+pub fn unquote(quoted: &str) -> Option<Text> {
     let inner = quoted.strip_prefix('"')?.strip_suffix('"')?;
     if !inner.contains('\\') {
         return Some(inner.into());
@@ -31,18 +31,4 @@ pub(crate) fn unquote(quoted: &str) -> Option<Text> {
     }
     text.push_str(rest);
     Some(text.into())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::unquote;
-
-    #[test]
-    fn escapes() {
-        assert_eq!(unquote(r#""plain Ç""#).as_deref(), Some("plain Ç"));
-        assert_eq!(unquote(r#""a \"b\" \\ \n\u{1}c""#).as_deref(), Some("a \"b\" \\ \n\u{1}c"));
-        assert_eq!(unquote(r#""\q""#), None);
-        assert_eq!(unquote(r#""\u{110000}""#), None);
-        assert_eq!(unquote(r#""\u{41""#), None);
-    }
 }
