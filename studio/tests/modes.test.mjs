@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { SQUARE } from "./programs.mjs";
-import { pixels, ready, type } from "./browser.mjs";
+import { drawn, pixels, ready, type } from "./browser.mjs";
 import { tests, value } from "./pages.mjs";
 
 const { page, both } = tests();
@@ -66,8 +66,10 @@ page("rotary axes have rows where one moves, and none elsewhere", {}, async (own
 });
 
 /** How many of the spindle chart's columns have ink between the speeds, off the axis and off the top. */
-const slope = (own) =>
-  own.evaluate(() => {
+async function slope(own) {
+  // Charts are drawn after the part.
+  await drawn(own);
+  return own.evaluate(() => {
     const canvas = document.querySelectorAll("#charts canvas")[1];
     const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     const style = getComputedStyle(document.documentElement).getPropertyValue("--c-move-clockwise").trim();
@@ -87,6 +89,7 @@ const slope = (own) =>
     const columns = new Set(middle.flatMap((y) => [...rows.get(y)]));
     return columns.size;
   });
+}
 
 both("the spindle runs up and down in slopes where its machine states how long, and in steps elsewhere", {}, async (own) => {
   // Of one speed, so that no line but a slope or a step lies between it and nothing.
