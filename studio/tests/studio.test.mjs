@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { cpSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
+import { drawn, line, open, paste, pixels, placeOf, ready, type } from "./browser.mjs";
 import { NCC, studio } from "./binary.mjs";
 import { tests, value } from "./pages.mjs";
 import { ASKS, SQUARE, long } from "./programs.mjs";
@@ -231,6 +231,8 @@ page("the moment plays, pauses, steps and is dragged", {}, async (own) => {
 
 page("charts stand on the axis of time, and a click on one goes to the moment", {}, async (own) => {
   await type(own, SQUARE);
+  // They are drawn after the part.
+  await drawn(own);
   assert.equal(await own.locator("#charts canvas").count(), 3);
   const box = await own.locator("#charts .u-over").first().boundingBox();
   await own.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
