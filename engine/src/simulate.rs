@@ -42,7 +42,7 @@ const PIXELS: usize = 1200;
 pub(crate) struct Kept {
     /// The one that was cut last.
     cut: Option<Box<CutProgram>>,
-    /// The one whose moves were asked for last, with what was reported of it, until a file is another.
+    /// The one whose moves were asked for last, with the report of its execution; forgotten when a file changes.
     executed: Option<Box<(One, Executed, Vec<u8>)>>,
 }
 
@@ -143,12 +143,13 @@ pub(crate) fn path(
     messages: &mut Buffer,
 ) -> Result<(Exit, Outputs), Problem> {
     kept.forget_moves();
-    let mut told = Buffer::no_color();
-    let executed = execute(&with_datum(one.clone(), files)?, files, &mut told);
-    let _ = messages.write_all(told.as_slice());
+    let mut report = Buffer::no_color();
+    let executed = execute(&with_datum(one.clone(), files)?, files, &mut report);
+    // A buffer in memory takes all that is written.
+    let _ = messages.write_all(report.as_slice());
     let Some(executed) = executed? else { return Ok((Exit::Refused, Vec::new())) };
     let outputs = vec![("path", moves(&executed.path)?), ("modes", executed.modes.clone())];
-    kept.executed = Some(Box::new((one.clone(), executed, told.into_inner())));
+    kept.executed = Some(Box::new((one.clone(), executed, report.into_inner())));
     Ok((Exit::Done, outputs))
 }
 
@@ -160,8 +161,8 @@ fn executed(
     messages: &mut Buffer,
 ) -> Result<Option<Executed>, Problem> {
     match kept.executed.take().map(|own| *own) {
-        Some((own, executed, told)) if own == *one => {
-            let _ = messages.write_all(&told);
+        Some((own, executed, report)) if own == *one => {
+            let _ = messages.write_all(&report);
             Ok(Some(executed))
         }
         _ => execute(&with_datum(one.clone(), files)?, files, messages),

@@ -168,7 +168,7 @@ fn a_part_is_shown_after_any_move() {
 fn a_program_whose_moves_are_known_is_cut_as_any_other() {
     let simulate = |more: &str| format!(r#"{{ "verb": "simulate", "file": "a.nc", "cells": 60 {more} }}"#);
     let path = r#"{ "verb": "path", "file": "a.nc" }"#;
-    // Its last line is never reached, which is told.
+    // Its last line is unreachable code, which ncc reports.
     let one = SLOT.replace("M30", "M30\nG0 X0.");
     let other = one.replace("Z-2.", "Z-3.");
     let files = [("a.nc", one.as_str())];

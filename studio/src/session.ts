@@ -314,7 +314,7 @@ export class Session {
       }
     } catch (error) {
       if (error instanceof Cancelled || own !== this.generation) return;
-      // What another engine finds does not take its place.
+      // The answer of the other engine would replace it.
       this.generation += 1;
       this.checked.set({ ...NOTHING, told: error instanceof Error ? error.message : String(error) });
       this.state.set("failed");
@@ -385,11 +385,11 @@ export class Session {
     // A part that takes its time comes later: until then the one before stands with the new path.
     const early = this.cutLasted > SLOW ? heavy.run({ verb: "path", ...one }) : undefined;
     let checking = check.run({ verb: "check", ...one });
-    const told = () => checking.then((answer) => (current() ? this.tellCheck(answer) : undefined));
-    // What fails is told where it is waited for.
-    const waited = <T>(answer: Promise<T>): Promise<T> => (answer.catch(() => undefined), answer);
-    let checked = waited(told());
-    const path = early && (await waited(early));
+    const show = (answer: Answer) => (current() ? this.tellCheck(answer) : undefined);
+    let checked = checking.then(show);
+    // A failure is reported at the `await` of its answer, which may come later.
+    [early, checked].forEach((one) => void one?.catch(() => undefined));
+    const path = await early;
     if (!current()) return;
     const bytes = path?.bytes("path");
     if (bytes) this.path.set(readPath(bytes, path?.bytes("modes")));
@@ -398,7 +398,8 @@ export class Session {
       // A folder that is too large, or gone, has nothing to call: the program says so.
       await heavy.called(project.server.program).catch(() => undefined);
       checking = check.run({ verb: "check", ...one });
-      checked = waited(told());
+      checked = checking.then(show);
+      checked.catch(() => undefined);
       if (!current()) return;
     }
     const began = performance.now();

@@ -388,6 +388,14 @@ both("an edit brings one part, and the picture as fine as it was", {}, async (ow
   // Without those that only smooth the edges, by software, once nothing moves.
   const pictures = async () => Number(await data(own, "frames")) - Number(await data(own, "smoothed"));
   const [shown, before, fineness] = [Number(await data(own, "shown")), await pictures(), await data(own, "fineness")];
+  await own.evaluate(() => {
+    window.compiled = 0;
+    const { compileShader } = WebGL2RenderingContext.prototype;
+    WebGL2RenderingContext.prototype.compileShader = function (...given) {
+      window.compiled += 1;
+      return compileShader.apply(this, given);
+    };
+  });
   await own.keyboard.press("Enter");
   await own.waitForFunction((before) => Number(document.querySelector("#canvas").dataset.shown) > before, shown);
   await ready(own);
@@ -397,6 +405,7 @@ both("an edit brings one part, and the picture as fine as it was", {}, async (ow
   // The cursor, the part, and what the mark of a line may need: no row of pictures on trial.
   const count = (await pictures()) - before;
   assert.ok(count >= 1 && count <= 3, String(count));
+  assert.equal(await own.evaluate(() => window.compiled), 0);
 });
 
 const PHONE = { width: 390, height: 780, hasTouch: true, isMobile: true };

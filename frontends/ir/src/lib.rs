@@ -90,7 +90,7 @@ fn word(text: &str, l: usize, r: usize, fault: LexFault) -> (Fault, usize, usize
     }
 }
 
-/// What was expected, for reading; a long list is cut.
+/// Expected words as the text of a message; a long list is cut.
 fn list(expected: &[String]) -> Expected {
     const SHOWN: usize = 6;
     let mut text = String::new();

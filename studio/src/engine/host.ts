@@ -1,7 +1,7 @@
 // Which host the page has: the binary that serves it says so in the page's head; a static page has a worker.
 //
-// There are three engines: one for what the eye waits for (colours), one that checks, and one that cuts and translates. What the
-// last two do takes its time, and is given up where newer work takes its place.
+// There are three engines: one for what the eye waits for (colours), one that checks, and one that cuts and translates. Work of
+// the last two takes its time, and is cancelled for newer work.
 
 import type { Engine } from "./engine";
 import { Loopback, withToken } from "./loopback";

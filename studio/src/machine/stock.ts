@@ -101,8 +101,8 @@ void main() {
 }
 `;
 
-/** What a picture has of colours, section, wireframe and hollows is compiled in, as `StockView.compile` says: by software, what
- * a branch leaves out takes as long as what it does. */
+/** `StockView.compile` defines the colouring and whether a picture has a section, a wireframe or hollows. Graphics by software
+ * compute both sides of a branch. */
 const FRAGMENT = /* glsl */ `
 precision highp float;
 precision highp int;
@@ -395,7 +395,7 @@ export class StockView {
   /** Before a picture: its shaders do what it shows and nothing else. */
   compile(): void {
     const { look, section } = this.uniforms;
-    const on = { WIRE: look!.value.w > 0, SECTION: section!.value.lengthSq() > section!.value.w ** 2, HOLLOWS: this.faces.some };
+    const on = { WIRE: look!.value.w > 0, SECTION: section!.value.toArray().slice(0, 3).some(Boolean), HOLLOWS: this.faces.some };
     const defines = { COLOURING: this.colouring, ...Object.fromEntries(Object.entries(on).filter(([, is]) => is).map(([name]) => [name, 1])) };
     const key = JSON.stringify(defines);
     if (key === this.compiled) return;

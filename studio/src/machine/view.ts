@@ -548,14 +548,14 @@ function around(a: Box, b: Box): Box {
   return { low: [x0, y0, z0], high: [x1, y1, z1] };
 }
 
-/** What a picture is drawn with. */
+/** A canvas's context for drawing. */
 export interface Drawing {
   context: WebGL2RenderingContext;
   /** Whether edges are smooth in every picture: by software that takes as long as the rest. */
   smooth: boolean;
 }
 
-/** What browsers call graphics by software. */
+/** Names that browsers have for graphics by software. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
 /** How a canvas is drawn on; nothing where WebGL 2 is missing. */
