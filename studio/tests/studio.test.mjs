@@ -248,7 +248,8 @@ both("a program is translated beside its source, and verified", {}, async (own) 
   await ready(own);
   assert.equal(await value(own, "#verdict"), "Verified: it does the same");
   assert.match(await own.locator("#output .cm-content").textContent(), /CYCLE81/);
-  assert.ok((await own.locator("#output .c-code-g").count()) > 3);
+  // Colours come after their text.
+  await own.waitForFunction(() => document.querySelectorAll("#output .c-code-g").length > 3);
   const [download] = await Promise.all([own.waitForEvent("download"), own.click("#translation-export")]);
   assert.match(download.suggestedFilename(), /\.mpf$/);
   assert.match(readFileSync(await download.path(), "utf8"), /M30/);
