@@ -249,7 +249,7 @@ both("a program is translated beside its source, and verified", {}, async (own) 
   assert.equal(await value(own, "#verdict"), "Verified: it does the same");
   assert.match(await own.locator("#output .cm-content").textContent(), /CYCLE81/);
   // Colours come after their text.
-  await own.waitForFunction(() => document.querySelectorAll("#output .c-code-g").length > 3);
+  await own.locator("#output .c-code-g").nth(3).waitFor();
   const [download] = await Promise.all([own.waitForEvent("download"), own.click("#translation-export")]);
   assert.match(download.suggestedFilename(), /\.mpf$/);
   assert.match(readFileSync(await download.path(), "utf8"), /M30/);
