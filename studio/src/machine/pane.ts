@@ -166,7 +166,7 @@ export class MachinePane {
         byId("canvas").dataset.smoothed = String(view.smoothed);
         byId("canvas").dataset.fineness = `${view.stock.stride} ${view.paths.every}`;
         byId("canvas").dataset.middle = JSON.stringify(view.middle);
-        byId("canvas").dataset.scale = String((view.camera.zoom * view.eye.height) / 200);
+        byId("canvas").dataset.scale = String(view.scale);
       },
     });
   }

@@ -22,6 +22,7 @@ import {
 } from "three";
 import type { Cut, Heights } from "../engine/part";
 import { Faces, HOLLOWS, MAKER } from "./hollows";
+import { all, few } from "./mesh";
 import { SCALE } from "./shaders";
 
 /** Where the cells are, and how the grid that is drawn lies on them. */
@@ -234,6 +235,10 @@ const TEXTURES = [
 const MANY = 700;
 /** Cells between two points at most; more only where points stay so near each other in the picture, in pixels. */
 const [COARSEST, NEAR] = [4, 4];
+/** Triangles are as they were until a pixel is so many times smaller, or larger. */
+const [NEARER, FARTHER] = [1.5, 4];
+/** Of a picture's pixel, how far a triangle may be from the part; and of its slope, mm a mm: a sixtieth of the light. */
+const [SEEN, LIT] = [0.5, 0.04];
 
 export class StockView {
   readonly drawn: Mesh<BufferGeometry, RawShaderMaterial>;
@@ -266,6 +271,8 @@ export class StockView {
   private cells: [number, number] = [0, 0];
   private colouring: 0 | 1 | 2 | 3 = 0;
   private compiled = "";
+  /** The pixel that the triangles were made for, mm; 0 for all triangles, and nothing for none. */
+  private made: number | undefined;
 
   constructor() {
     const make = (fragmentShader: string) => {
@@ -314,7 +321,7 @@ export class StockView {
       texture.needsUpdate = true;
       this.uniforms[name]!.value = texture;
     }
-    this.rebuild();
+    this.setStride(this.stride);
   }
 
   /** Cells between two points that are drawn. */
@@ -326,29 +333,35 @@ export class StockView {
   coarser(pixels: number): boolean {
     const stride = 2 * this.stride;
     if (stride > COARSEST && stride * pixels > NEAR) return false;
-    this.uniforms.stride!.value = stride;
-    this.rebuild();
+    this.setStride(stride);
     return true;
-  }
-
-  /** The eye came nearer: points that are far from each other now get others between them. */
-  nearer(pixels: number): void {
-    while (this.stride > COARSEST && this.stride * pixels > 2 * NEAR) this.finer();
   }
 
   /** More points, for a device that draws quickly; false where each cell has its own. */
   finer(): boolean {
-    if (this.uniforms.stride!.value === 1) return false;
-    this.uniforms.stride!.value /= 2;
-    this.rebuild();
+    if (this.stride === 1) return false;
+    this.setStride(this.stride / 2);
     return true;
   }
 
-  private rebuild(): void {
-    const stride = this.uniforms.stride!.value as number;
-    const [across, along] = this.cells.map((cells) => Math.ceil((cells - 1) / stride) + 1) as [number, number];
-    this.uniforms.points!.value.set(across, along);
-    const index = new BufferAttribute(triangles(across + 4, along + 4), 1);
+  private setStride(stride: number): void {
+    this.uniforms.stride!.value = stride;
+    this.uniforms.points!.value.set(...this.cells.map((cells) => Math.ceil((cells - 1) / stride) + 1));
+    this.made = undefined;
+  }
+
+  /** Before a picture whose pixels are so many mm: triangles as fine as it shows, or all of them for a device that draws quickly. */
+  prepare(pixel: number, slow: boolean): void {
+    const { cell, bottom, heights } = this.uniforms;
+    if (!heights!.value) return;
+    // The eye came nearer: points that are far from each other now get others between them.
+    while (this.stride > COARSEST && this.stride * cell!.value > 2 * NEAR * pixel) this.finer();
+    const fits = slow ? this.made && pixel > this.made / NEARER && pixel < this.made * FARTHER : this.made === 0;
+    if (fits) return;
+    this.made = slow ? pixel : 0;
+    const points = this.uniforms.points!.value.toArray() as [number, number];
+    const grid = { heights: heights!.value.image.data, cells: this.cells, cell: cell!.value, bottom: bottom!.value, stride: this.stride, points };
+    const index = new BufferAttribute(slow ? few(grid, { height: SEEN * pixel, slope: LIT }) : all(points), 1);
     for (const mesh of [this.drawn, this.pick]) {
       mesh.geometry.dispose();
       mesh.geometry = new BufferGeometry();
@@ -364,6 +377,8 @@ export class StockView {
       (texture.image as { data: unknown }).data = own;
       texture.needsUpdate = true;
     }
+    // All triangles are the same for each part.
+    if (this.made !== 0) this.made = undefined;
     this.faces.show(part, this.cells);
     this.faces.setVisible(this.drawn.visible);
   }
@@ -419,21 +434,4 @@ export class StockView {
     this.uniforms.scales!.value = [0, 1, 2, 3].map((at) => ink(`--scale-${at}`));
     this.uniforms.tools!.value = Array.from({ length: 8 }, (_, at) => ink(`--c-tool-${at}`));
   }
-}
-
-/** Two triangles for each square of a grid of so many points. */
-function triangles(across: number, along: number): Uint32Array {
-  const index = new Uint32Array((across - 1) * (along - 1) * 6);
-  let at = 0;
-  for (let row = 0; row + 1 < along; row += 1) {
-    for (let column = 0; column + 1 < across; column += 1) {
-      const corner = row * across + column;
-      index[at] = corner;
-      index[at + 1] = index[at + 3] = corner + 1;
-      index[at + 2] = index[at + 5] = corner + across;
-      index[at + 4] = corner + across + 1;
-      at += 6;
-    }
-  }
-  return index;
 }

@@ -392,7 +392,7 @@ export class MachineView {
   private render(): void {
     const began = performance.now();
     this.wireframe();
-    this.stock.nearer(this.cellPixels);
+    this.stock.prepare(1 / this.scale, this.slow || !this.drawing.smooth);
     this.stock.compile();
     this.fill(this.camera, this.canvas.clientWidth, this.canvas.clientHeight);
     if (this.trials === 0 || !this.path) return;
@@ -416,9 +416,14 @@ export class MachineView {
     return !this.settled && quick && [this.paths, this.stock].map((one) => one.finer()).some(Boolean);
   }
 
+  /** Pixels of the picture in a mm. */
+  get scale(): number {
+    return this.camera.zoom * (this.canvas.clientHeight / 200);
+  }
+
   /** How wide a cell of the part is in the picture, in pixels. */
   private get cellPixels(): number {
-    return (this.stock.uniforms.cell!.value as number) * this.camera.zoom * (this.canvas.clientHeight / 200);
+    return (this.stock.uniforms.cell!.value as number) * this.scale;
   }
 
   /** Cells between two lines of a wireframe: so many that lines are apart. */
