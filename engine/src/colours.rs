@@ -7,12 +7,11 @@
 //! Kinds come from what a piece is and from the dictionary's role of its letter, never from what a block means: a line of
 //! nonsense has colours, too. Columns count the units of UTF-16, as pages do. Not here: colours.
 
-use std::io::{self, Read, Seek};
-
 use ncc_dialects::{Dialect, Family, Role, Settings};
-use ncc_driver::source::Source;
 use ncc_frontends::pieces::{LineIs, Lines, MOST_PLAIN, Piece, PieceKind, PlainWord};
 use serde_json::{Value, json};
+
+use crate::program::Shared;
 
 /// Kinds of stretches; a stretch names one by its place here.
 const KINDS: [&str; 16] = [
@@ -100,41 +99,63 @@ pub(crate) fn any() -> Option<&'static Dialect> {
     ncc_dialects::builtins().find(|dialect| dialect.family == Family::Word)
 }
 
-/// The document: the kinds, and four numbers for each stretch of the lines from `first` on (counted from 1): line, first
-/// column, the column behind it, kind.
-pub(crate) fn document(
-    settings: Settings,
-    source: &mut Source,
-    first: usize,
-    lines: usize,
-) -> io::Result<Value> {
-    let dialect = settings.dialect;
-    let mut text = Vec::new();
-    source.file.rewind()?;
-    source.file.read_to_end(&mut text)?;
-    let (mut taken, mut pieces, mut found) = (Lines::new(settings), Vec::new(), Vec::new());
-    let mut plain = [PlainWord::default(); MOST_PLAIN];
-    let mut numbers: Vec<usize> = Vec::new();
-    for (number, line) in (1..first.saturating_add(lines)).zip(text.split(|byte| *byte == b'\n')) {
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        // Of the lines before, the state alone is wanted.
-        if number < first && taken.plain(line, &mut plain).is_some() {
-            continue;
-        }
-        let is = taken.line(line, &mut pieces);
-        if number < first {
-            continue;
-        }
-        found.clear();
-        match is {
-            LineIs::Blocks => stretches(dialect, line, &pieces, &mut found),
-            LineIs::Frame => found.push((0, line.len(), kind("frame"))),
-            LineIs::Outside => found.push((0, line.len(), kind("comment"))),
-            LineIs::Unread => {}
-        }
-        for (start, end, kind) in &found {
-            numbers.extend([number, column(line, *start), column(line, *end), *kind]);
-        }
+/// So many lines lie between two places of a text from which it can be taken apart.
+const BETWEEN: usize = 5_000;
+
+/// A text, and places from which it can be taken apart, as far as that was done: an editor asks for a few lines, whose colours
+/// go by the lines before them.
+#[derive(Debug)]
+pub(crate) struct Coloured {
+    text: Shared,
+    dialect: &'static Dialect,
+    /// From the first one on: the byte at which a line begins, and the state there.
+    places: Vec<(usize, Lines)>,
+}
+
+impl Coloured {
+    pub(crate) fn new(text: Shared, dialect: &'static Dialect) -> Coloured {
+        Coloured { text, dialect, places: vec![(0, Lines::new(Settings::new(dialect)))] }
     }
-    Ok(json!({ "dialect": dialect.id, "kinds": KINDS, "stretches": numbers }))
+
+    pub(crate) fn is_of(&self, text: &Shared, dialect: &'static Dialect) -> bool {
+        self.text.is(text) && std::ptr::eq(self.dialect, dialect)
+    }
+
+    /// The document: the kinds, and four numbers for each stretch of the lines from `first` on (counted from 1): line, first
+    /// column, the column behind it, kind.
+    pub(crate) fn document(&mut self, first: usize, lines: usize) -> Value {
+        let Coloured { text, dialect, places } = self;
+        let nearest = (first.saturating_sub(1) / BETWEEN).min(places.len() - 1);
+        let (mut at, mut taken) = places[nearest].clone();
+        let (mut pieces, mut found) = (Vec::new(), Vec::new());
+        let mut plain = [PlainWord::default(); MOST_PLAIN];
+        let mut numbers: Vec<usize> = Vec::new();
+        let all = text.as_ref()[at..].split(|byte| *byte == b'\n');
+        for (number, whole) in (1 + nearest * BETWEEN..first.saturating_add(lines)).zip(all) {
+            if number == 1 + places.len() * BETWEEN {
+                places.push((at, taken.clone()));
+            }
+            at += whole.len() + 1;
+            let line = whole.strip_suffix(b"\r").unwrap_or(whole);
+            // Of the lines before, the state alone is wanted.
+            if number < first && taken.plain(line, &mut plain).is_some() {
+                continue;
+            }
+            let is = taken.line(line, &mut pieces);
+            if number < first {
+                continue;
+            }
+            found.clear();
+            match is {
+                LineIs::Blocks => stretches(dialect, line, &pieces, &mut found),
+                LineIs::Frame => found.push((0, line.len(), kind("frame"))),
+                LineIs::Outside => found.push((0, line.len(), kind("comment"))),
+                LineIs::Unread => {}
+            }
+            for (start, end, kind) in &found {
+                numbers.extend([number, column(line, *start), column(line, *end), *kind]);
+            }
+        }
+        json!({ "dialect": dialect.id, "kinds": KINDS, "stretches": numbers })
+    }
 }

@@ -34,7 +34,14 @@ pub(crate) type Outputs = Vec<(&'static str, Vec<u8>)>;
 
 /// The bytes of a file, which its readers share: a program may have hundreds of megabytes.
 #[derive(Clone, Debug)]
-struct Shared(Arc<Vec<u8>>);
+pub(crate) struct Shared(Arc<Vec<u8>>);
+
+impl Shared {
+    /// Whether it is the same file, and not another with the same bytes.
+    pub(crate) fn is(&self, other: &Shared) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
 
 impl AsRef<[u8]> for Shared {
     fn as_ref(&self) -> &[u8] {
@@ -59,6 +66,11 @@ impl Files {
     /// The bytes of a file.
     pub(crate) fn get(&self, name: &str) -> Option<&Vec<u8>> {
         self.all.get(name).map(|file| &*file.0)
+    }
+
+    /// A file that there must be.
+    pub(crate) fn shared(&self, name: &str) -> Result<&Shared, Problem> {
+        self.all.get(name).ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))
     }
 
     /// A dialect by its name; of no name and of `auto`, none.
@@ -96,9 +108,7 @@ pub(crate) fn open(
     files: &Files,
     messages: &mut Buffer,
 ) -> Result<Source, Problem> {
-    let text = files.all.get(name);
-    let text = text.ok_or_else(|| Problem::file("read", name, &io::ErrorKind::NotFound.into()))?;
-    let mut source = Source::of(Cursor::new(text.clone()), name);
+    let mut source = Source::of(Cursor::new(files.shared(name)?.clone()), name);
     let Some(refusal) = not_milling::refusal(&mut source, milling)? else { return Ok(source) };
     refusal.print(messages).map_err(|e| Problem::file("read", name, &e))?;
     // It has been reported.

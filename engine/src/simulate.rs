@@ -28,6 +28,7 @@ use ncc_simulate::Look;
 use ncc_simulate::{Face, Fixture, Stock, covered, faces};
 use ncc_time::Model;
 
+use crate::colours::Coloured;
 use crate::program::{Files, Outputs, is_given, machine_of, plan, row, side, warn};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::request::drawn::{Form, Picture, View};
@@ -44,6 +45,8 @@ pub(crate) struct Kept {
     cut: Option<Box<CutProgram>>,
     /// The one whose moves were asked for last, with the report of its execution; forgotten when a file changes.
     executed: Option<Box<(One, Executed, Vec<u8>)>>,
+    /// The one that was coloured last.
+    pub(crate) coloured: Option<Coloured>,
 }
 
 impl Kept {

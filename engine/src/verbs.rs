@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_backends::Layout;
-use ncc_dialects::Settings;
 use ncc_driver::check::{self, told};
 use ncc_driver::guess::recognise;
 use ncc_driver::job::initial_variables::{self, InitialVariables};
@@ -32,7 +31,7 @@ use ncc_machines::Profile;
 use ncc_machines::project::Programs;
 use ncc_machines::reading::Side as Whose;
 
-use crate::colours;
+use crate::colours::{self, Coloured};
 use crate::editing;
 use crate::program::{
     Files, InMemory, Outputs, machine, machine_of, open, pairs, row, settings, side, stands, tell_absent,
@@ -76,7 +75,7 @@ fn verb(
             Some(page) => Ok((Exit::Done, vec![("output", page.as_bytes().to_vec())])),
             None => Err(RequestFault::NoMessage(code.clone()).into()),
         },
-        Request::Colours(asked) => coloured(asked, files),
+        Request::Colours(asked) => coloured(asked, files, kept),
         Request::Words(Words { dialect }) => {
             let dialect = files.named(Some(dialect))?.ok_or(RequestFault::NoTarget)?;
             let document = serde_json::to_vec(&words::document(dialect)).unwrap_or_default();
@@ -194,19 +193,20 @@ fn translated(asked: &Translate, files: &Files, messages: &mut Buffer) -> Result
     Ok((outcome.exit(), outputs))
 }
 
-fn coloured(asked: &Colours, files: &Files) -> Result<(Exit, Outputs), Problem> {
-    let cannot = |e: io::Error| Problem::file("read", &asked.file, &e);
-    let mut source = open(&asked.file, true, files, &mut Buffer::no_color())?;
+fn coloured(asked: &Colours, files: &Files, kept: &mut Kept) -> Result<(Exit, Outputs), Problem> {
+    let text = files.shared(&asked.file)?;
     let dialect = match files.named(asked.from.as_deref())? {
         Some(dialect) => dialect,
         None => {
+            let mut source = open(&asked.file, true, files, &mut Buffer::no_color())?;
             let all: Vec<_> = ncc_dialects::builtins().collect();
             let found = recognise(&mut source, &all).ok().map(|found| found.dialect).or_else(colours::any);
             found.ok_or(RequestFault::NoTarget)?
         }
     };
-    let document =
-        colours::document(Settings::new(dialect), &mut source, asked.first, asked.lines).map_err(cannot)?;
+    let own = kept.coloured.take().filter(|own| own.is_of(text, dialect));
+    let own = kept.coloured.insert(own.unwrap_or_else(|| Coloured::new(text.clone(), dialect)));
+    let document = own.document(asked.first, asked.lines);
     Ok((Exit::Done, vec![("document", serde_json::to_vec(&document).unwrap_or_default())]))
 }
 

@@ -259,6 +259,30 @@ fn words_have_colours_whatever_they_mean() {
 }
 
 #[test]
+fn colours_of_lines_are_those_of_the_text_in_whatever_order_they_are_asked_for() {
+    // From its second mark on the text is no program: the lines behind are comments.
+    let text = |blocks: usize| format!("%\n{}%\n{}", "G1 X1. (A)\n".repeat(blocks), "G1 X2.\n".repeat(9_000));
+    let asked = |engine: &mut Engine, first: usize| {
+        let request = format!(
+            r#"{{ "verb": "colours", "file": "part.nc", "from": "fanuc", "first": {first}, "lines": 3 }}"#
+        );
+        assert_eq!(engine.run(&request), 0);
+        self::text(engine, "document")
+    };
+    let mut engine = Engine::default();
+    for blocks in [12_000, 4_998, 4_999, 5_000] {
+        engine.put("part.nc", text(blocks).into_bytes());
+        for first in [13_000, 4_999, 5_000, 5_001, 5_002, 1, 10_001, 12_001, 21_000, 9_999, 30_000] {
+            let mut fresh = Engine::default();
+            fresh.put("part.nc", text(blocks).into_bytes());
+            assert_eq!(asked(&mut engine, first), asked(&mut fresh, first), "{first} with {blocks} blocks");
+        }
+    }
+    let comment = |engine: &mut Engine, first| asked(engine, first).contains(&format!("[{first},0,6,0,"));
+    assert!(comment(&mut engine, 5_003) && !comment(&mut engine, 5_001));
+}
+
+#[test]
 fn machines_are_listed_with_their_dialects() {
     let (code, engine) = done(&[], r#"{ "verb": "machines" }"#);
     assert_eq!(code, 0);
