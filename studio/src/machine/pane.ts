@@ -164,19 +164,19 @@ export class MachinePane {
         byId("frame-time").textContent = view.timed ? this.spent(view) : "";
         byId("canvas").dataset.frames = String(view.frames);
         byId("canvas").dataset.smoothed = String(view.smoothed);
-        byId("canvas").dataset.fineness = `${view.stock.stride} ${view.paths.every}`;
+        byId("canvas").dataset.fineness = `${view.stock.stride} ${view.paths.fineness}`;
         byId("canvas").dataset.middle = JSON.stringify(view.middle);
         byId("canvas").dataset.scale = String(view.scale);
       },
     });
   }
 
-  /** What the picture shows: the grid's step, the cells of the part, and how many moves a line stands for. */
+  /** What the picture shows: the grid's step, the cells of the part, and how far lines may be from the path where that is seen. */
   private scale(view: MachineView): string {
     const all = [say("grid", { size: view.step })];
     const { raw } = this.cut ?? {};
     if (raw) all.push(say("cells", { across: raw.cells[0], along: raw.cells[1], size: figure(raw.cell, 3) }));
-    if (view.paths.every > 1) all.push(say("thinned", { every: view.paths.every }));
+    if (view.paths.fineness > 1) all.push(say("thinned", { size: figure(view.paths.fineness / 2, 0) }));
     return all.join(" · ");
   }
 

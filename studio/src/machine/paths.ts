@@ -1,4 +1,5 @@
-// The moves of a path as drawings: a texture and a mesh without vertices for each million of moves.
+// A path as drawings: a texture and a mesh without vertices for each million of lines. A line is a move; for a device that draws slowly
+// it is several, where the picture shows no difference.
 
 import {
   BufferGeometry,
@@ -19,25 +20,40 @@ import {
   type IUniform,
 } from "three";
 import { isRapid, type Path } from "../engine/path";
-import { CHUNK, FRAGMENT, PICK, ROW, TEXELS, VERTEX } from "./shaders";
+import { evenly, runsOf } from "./runs";
+import { CHUNK, FRAGMENT, MOMENTS, PICK, ROW, TEXELS, VERTEX } from "./shaders";
 
-/** What lines of some width are drawn up to; more moves are lines of the device, a third of the work. */
+/** What lines of some width are drawn up to; more are lines of the device, a third of the work. */
 const WIDE = 300_000;
 
 export const COLOURINGS = ["kind", "tool", "operation", "feed", "depth", "time"] as const;
 export type Colouring = (typeof COLOURINGS)[number];
 
-/** So many lines are drawn in the time of a picture by a device that draws slowly. */
-const FEW = 40_000;
+/** So many lines are drawn in the time of a picture by a device that draws slowly, and so few moves take it no time. */
+const [FEW, NO_TIME] = [40_000, 4_000];
+/** So many marked moves are drawn. */
+const MARKED = 100_000;
+/** Width of a line, of a marked one, and of one that a pointer meets, in pixels. */
+const [WIDTH, THICK, MET] = [1.6, 3, 7];
+/** Steps of half a pixel: a picture does not show the least, and the greatest is as wide as all of it. */
+const [LEAST, GREATEST] = [1 / 256, 4096];
+
+/** First and last pieces of lines. */
+interface Lines {
+  first: Uint32Array;
+  last: Uint32Array;
+}
+const NONE: Lines = { first: new Uint32Array(), last: new Uint32Array() };
 
 /** Uniforms that all pieces have in common. */
 function shared(): Record<string, IUniform> {
   return {
     now: { value: -1 },
     share: { value: 0 },
+    until: { value: 1 },
     size: { value: new Vector2(1, 1) },
-    width: { value: 1.6 },
-    marked: { value: new Vector2(-1, -1) },
+    width: { value: WIDTH },
+    marked: { value: 0 },
     shown: { value: 15 },
     future: { value: 1 },
     kinds: { value: [0, 1, 2, 3].map(() => new Color()) },
@@ -46,9 +62,7 @@ function shared(): Record<string, IUniform> {
     ground: { value: new Color() },
     colouring: { value: 0 },
     range: { value: new Vector4(0, 1, 0, 1) },
-    seconds: { value: 1 },
     scales: { value: [0, 1, 2, 3].map(() => new Color()) },
-    every: { value: 1 },
     section: { value: new Vector4(0, 0, 0, 1) },
   };
 }
@@ -57,77 +71,150 @@ export class Paths {
   /** What is seen, and what a pointer is looked up in. */
   readonly drawn = new Group();
   readonly pick = new Group();
+  private readonly plain = new Group();
+  private readonly thick = new Group();
   private readonly uniforms = shared();
   private readonly pickUniforms = shared();
+  private readonly markUniforms = { ...this.uniforms, marked: { value: 1 }, width: { value: THICK }, now: { value: -1 }, until: { value: 1 } };
   private readonly materials = {
-    drawn: materials(this.uniforms, FRAGMENT),
-    pick: materials(this.pickUniforms, PICK),
+    drawn: new Materials(this.uniforms, FRAGMENT),
+    pick: new Materials(this.pickUniforms, PICK),
+    marked: new Materials(this.markUniforms, FRAGMENT),
   };
   private path: Path | undefined;
+  private lines: Lines = NONE;
+  /** Numbers of marked lines of the program, and their pieces. */
+  private marks: [number, number] = [-1, -1];
+  private marked = NONE.first;
+  /** The piece under way and how much of it is done. */
+  private now: [number, number] = [-1, 0];
+  /** How far moves may be from a line that stands for them, in halves of a pixel, 0 where each has its own: as wished, and as it is where
+   * that would be more lines than `most`. */
+  private wished = 1;
+  private step = 1;
+  private most = FEW;
+  /** mm a pixel that the lines were made for, 0 if they have to be made. */
+  private made = 0;
+
+  constructor() {
+    this.drawn.add(this.plain, this.thick);
+  }
 
   /** Another path, for a device that draws slowly or may do so; one that is like the last is drawn as finely. */
   set(path: Path | undefined, slow: boolean, alike: boolean): void {
-    this.clear();
-    this.path = path;
-    const pieces = path?.pieces ?? 0;
-    if (!path || path.pieces === 0) return;
+    this.path = path && path.pieces > 0 ? path : undefined;
+    this.lines = NONE;
+    this.made = 0;
+    clear(this.plain);
+    clear(this.pick);
+    this.setMarked(...this.marks);
+    if (!path) return;
     this.uniforms.range!.value = ranges(path);
-    this.uniforms.seconds!.value = path.seconds;
-    const operations = new Operations(path);
-    const wide = path.pieces <= WIDE;
-    this.uniforms.width!.value = wide ? 1.6 : 0;
-    this.pickUniforms.width!.value = wide ? 7 : 0;
-    for (let base = 0; base < path.pieces; base += CHUNK) {
-      const moves = Math.min(CHUNK, path.pieces - base);
-      const own = { moves: { value: textureOf(path, base, moves, operations) }, base: { value: base }, count: { value: moves } };
-      this.drawn.add(piece(wide, moves, this.materials.drawn(base / CHUNK, own)));
-      this.pick.add(piece(wide, moves, this.materials.pick(base / CHUNK, own)));
-    }
     // Where there are many, few are drawn until it is known how quick the device is.
-    this.thin(alike ? this.every : wide && !slow ? 1 : Math.ceil(pieces / FEW));
+    if (!alike) this.wish(path.pieces <= NO_TIME || (path.pieces <= WIDE && !slow) ? 0 : 1, FEW);
   }
 
-  /** So many moves are one line. */
-  get every(): number {
-    return this.uniforms.every!.value as number;
+  /** How far the path may be from the lines that are drawn, in halves of a pixel; 0 where each move is a line. */
+  get fineness(): number {
+    return this.step && Math.max(1, this.step);
   }
 
   /** A device that draws slowly has fewer lines, each of several moves; false where there are few already. */
   coarser(): boolean {
-    const pieces = this.path?.pieces ?? 0;
-    if (pieces / this.every <= FEW) return false;
-    this.thin(Math.ceil(pieces / FEW));
+    if (this.lines.first.length <= NO_TIME || (this.wished >= 1 && this.most === FEW)) return false;
+    this.wish(1, FEW);
     return true;
   }
 
-  /** More lines, four times at most; false where each move has its own. */
+  /** More lines, about four times at most; false where each move has its own. */
   finer(): boolean {
-    if (this.every === 1) return false;
-    this.thin(Math.ceil(this.every / 4));
+    if (this.wished === 0 || !this.path) return false;
+    const most = 4 * this.lines.first.length;
+    this.wish(most < this.path.pieces && this.step > LEAST ? this.step / 16 : 0, most);
     return true;
   }
 
-  private thin(every: number): void {
-    this.uniforms.every!.value = this.pickUniforms.every!.value = every;
-    for (const group of [this.drawn, this.pick]) {
-      for (const child of group.children as Mesh<BufferGeometry, RawShaderMaterial>[]) {
-        const moves = child.material.uniforms.count!.value as number;
-        child.geometry.setDrawRange(0, Math.ceil(moves / every) * (child instanceof Mesh ? 6 : 2));
-      }
+  private wish(step: number, most: number): void {
+    this.wished = step;
+    this.most = step > 0 ? most : Infinity;
+    this.made = 0;
+  }
+
+  /** Before a picture whose pixels are so many mm wide: makes the lines anew where that, or the eye, asks for it. Whether it did so. */
+  see(pixel: number): boolean {
+    const far = pixel / this.made;
+    if (!this.path || (this.made > 0 && (this.wished === 0 || (far >= 0.5 && far <= 4)))) return false;
+    this.made = pixel;
+    this.lines = this.linesOf(this.path, pixel / 2);
+    this.build(this.path);
+    return true;
+  }
+
+  private linesOf(path: Path, half: number): Lines {
+    const { x: slowest, y: fastest } = this.uniforms.range!.value as Vector4;
+    // Colours of feeds are kept as long as the rest is as fine as the picture.
+    const runs = () => runsOf(path, this.step * half, this.most, (Math.max(0, this.step - 1) / 64) * (fastest - slowest));
+    this.step = this.wished;
+    let first = runs();
+    while (!first && this.step < GREATEST) {
+      this.step *= 2;
+      first = runs();
     }
+    // Moves of other kinds, or apart, are left: a line is then so many of them.
+    first ??= evenly(path.pieces, Math.ceil(path.pieces / this.most));
+    return { first, last: first.length === path.pieces ? first : first.map((_, at) => (first[at + 1] ?? path.pieces) - 1) };
+  }
+
+  private build(path: Path): void {
+    clear(this.plain);
+    clear(this.pick);
+    const count = this.lines.first.length;
+    const wide = count <= WIDE;
+    this.uniforms.width!.value = wide ? WIDTH : 0;
+    this.pickUniforms.width!.value = wide ? MET : 0;
+    const operations = new Operations(path);
+    for (let base = 0; base < count; base += CHUNK) {
+      const lines = { first: this.lines.first.subarray(base, base + CHUNK), last: this.lines.last.subarray(base, base + CHUNK) };
+      const own = { moves: { value: textureOf(path, lines, operations) }, base: { value: base } };
+      this.plain.add(piece(wide, lines.first.length, this.materials.drawn.at(base / CHUNK, own)));
+      this.pick.add(piece(wide, lines.first.length, this.materials.pick.at(base / CHUNK, own)));
+    }
+    this.setNow(...this.now);
   }
 
   setSection(plane: Vector4): void {
     this.uniforms.section!.value = this.pickUniforms.section!.value = plane;
+    const on = plane.x !== 0 || plane.y !== 0 || plane.z !== 0;
+    Object.values(this.materials).forEach((one) => one.define("SECTION", on));
   }
 
-  setNow(move: number, share: number): void {
-    this.uniforms.now!.value = this.pickUniforms.now!.value = move;
-    this.uniforms.share!.value = share;
+  setNow(piece: number, share: number): void {
+    this.now = [piece, share];
+    this.markUniforms.now.value = lastUpTo(this.marked, piece);
+    const line = lastUpTo(this.lines.first, piece);
+    const [done, until] = [share, 1].map((share) => (this.path && line >= 0 ? alongOf(this.path, this.piecesOf(line), piece, share) : share));
+    for (const uniforms of [this.uniforms, this.pickUniforms]) {
+      uniforms.now!.value = line;
+      uniforms.share!.value = done;
+      uniforms.until!.value = until;
+    }
   }
 
+  /** Marks lines of the program: each of their moves is a thick line of its own. */
   setMarked(first: number, last: number): void {
-    this.uniforms.marked!.value.set(first, last);
+    this.marks = [first, last];
+    clear(this.thick);
+    this.marked = this.path && first > 0 ? piecesBetween(this.path, first, last) : NONE.first;
+    if (this.path && this.marked.length > 0) {
+      const texture = textureOf(this.path, { first: this.marked, last: this.marked }, new Operations(this.path));
+      this.thick.add(piece(true, this.marked.length, this.materials.marked.at(0, { moves: { value: texture }, base: { value: 0 } })));
+    }
+    this.setNow(...this.now);
+  }
+
+  /** First and last piece of a line that is drawn. */
+  piecesOf(line: number): [number, number] {
+    return [this.lines.first[line] ?? 0, this.lines.last[line] ?? 0];
   }
 
   setShown(bits: number, future: boolean): void {
@@ -137,6 +224,7 @@ export class Paths {
 
   setColouring(by: Colouring): void {
     this.uniforms.colouring!.value = COLOURINGS.indexOf(by);
+    [this.materials.drawn, this.materials.marked].forEach((one) => one.define("DEPTH", by === "depth"));
   }
 
   setSize(width: number, height: number, ratio: number): void {
@@ -156,16 +244,49 @@ export class Paths {
     this.uniforms.mark!.value = ink("--c-move-marked");
     this.uniforms.ground!.value = ink("--ground");
   }
+}
 
-  private clear(): void {
-    for (const group of [this.drawn, this.pick]) {
-      for (const child of [...group.children] as Mesh<BufferGeometry, RawShaderMaterial>[]) {
-        (child.material.uniforms.moves?.value as DataTexture).dispose();
-        child.geometry.dispose();
-        group.remove(child);
-      }
-    }
+function clear(group: Group): void {
+  for (const child of [...group.children] as Mesh<BufferGeometry, RawShaderMaterial>[]) {
+    (child.material.uniforms.moves?.value as DataTexture).dispose();
+    child.geometry.dispose();
+    group.remove(child);
   }
+}
+
+/** Place of the last of ascending numbers that is not greater than one; -1 where all are. */
+function lastUpTo(all: Uint32Array, value: number): number {
+  let [low, high] = [0, all.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((all[middle] as number) <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+/** How far along the line from its first piece to its last one the tool is, when a share of a piece is done. */
+function alongOf(path: Path, [first, last]: [number, number], piece: number, share: number): number {
+  if (first === last) return share;
+  let [done, all] = [0, 0];
+  for (const [from, to] of [[path.x0, path.x1], [path.y0, path.y1], [path.z0, path.z1]] as const) {
+    const begin = from[first] as number;
+    const way = (to[last] as number) - begin;
+    const own = from[piece] as number;
+    done += (own + ((to[piece] as number) - own) * share - begin) * way;
+    all += way * way;
+  }
+  return all > 0 ? Math.min(1, Math.max(0, done / all)) : 1;
+}
+
+/** Pieces of lines of the program, in their order. */
+function piecesBetween(path: Path, first: number, last: number): Uint32Array {
+  const found: number[] = [];
+  for (let at = 0; at < path.pieces && found.length < MARKED; at += 1) {
+    const line = path.line[at] as number;
+    if (line >= first && line <= last) found.push(at);
+  }
+  return Uint32Array.from(found);
 }
 
 /** Operations of a path: each call of a tool begins one. Asked in the order of the pieces. */
@@ -184,23 +305,23 @@ export class Operations {
   }
 }
 
-function textureOf(path: Path, base: number, moves: number, operations: Operations): DataTexture {
-  const rows = Math.ceil(moves / ROW);
+function textureOf(path: Path, { first, last }: Lines, operations: Operations): DataTexture {
+  const { kind, tool, feed, t0, x0, y0, z0, x1, y1, z1 } = path;
+  const rows = Math.ceil(first.length / ROW);
   const data = new Float32Array(rows * ROW * TEXELS * 4);
-  for (let own = 0; own < moves; own += 1) {
-    const [at, to] = [base + own, own * TEXELS * 4];
-    data[to] = path.x0[at] as number;
-    data[to + 1] = path.y0[at] as number;
-    data[to + 2] = path.z0[at] as number;
-    data[to + 3] = path.kind[at] as number;
-    data[to + 4] = path.x1[at] as number;
-    data[to + 5] = path.y1[at] as number;
-    data[to + 6] = path.z1[at] as number;
-    data[to + 7] = path.line[at] as number;
-    data[to + 8] = path.tool[at] as number;
-    data[to + 9] = path.feed[at] as number;
-    data[to + 10] = path.t0[at] as number;
-    data[to + 11] = operations.at(at);
+  const moments = MOMENTS / Math.max(path.seconds, 1e-6);
+  for (let own = 0; own < first.length; own += 1) {
+    const [from, end, to] = [first[own] as number, last[own] as number, own * TEXELS * 4];
+    // All of it is less than 2^23, so that a float has it as it is.
+    const look = (kind[from] as number) + 8 * Number(end > from) + 16 * ((tool[from] as number) & 7) + 128 * (operations.at(from) & 7);
+    data[to] = x0[from] as number;
+    data[to + 1] = y0[from] as number;
+    data[to + 2] = z0[from] as number;
+    data[to + 3] = look + 1024 * Math.min(MOMENTS, Math.round((t0[from] as number) * moments));
+    data[to + 4] = x1[end] as number;
+    data[to + 5] = y1[end] as number;
+    data[to + 6] = z1[end] as number;
+    data[to + 7] = feed[from] as number;
   }
   // Without NEAREST, textures of floats read as zeros, and no error says so.
   const texture = new DataTexture(data, ROW * TEXELS, rows, RGBAFormat, FloatType);
@@ -211,27 +332,44 @@ function textureOf(path: Path, base: number, moves: number, operations: Operatio
   return texture;
 }
 
-/** Gives the material of a piece by its place, with uniforms of its own. A material stays for the paths that follow: to compile its
- * shaders takes longer than a picture. */
-function materials(uniforms: Record<string, IUniform>, fragmentShader: string): (at: number, own: Record<string, IUniform>) => RawShaderMaterial {
-  const all: RawShaderMaterial[] = [];
-  return (at, own) => {
-    const material = (all[at] ??= new RawShaderMaterial({
+/** Materials of pieces by their places. One stays for the paths that follow: to compile its shaders takes longer than a picture. */
+class Materials {
+  private readonly all: RawShaderMaterial[] = [];
+  private readonly defines: Record<string, number> = {};
+
+  constructor(
+    private readonly uniforms: Record<string, IUniform>,
+    private readonly fragmentShader: string,
+  ) {}
+
+  /** That of a piece, with uniforms of its own. */
+  at(piece: number, own: Record<string, IUniform>): RawShaderMaterial {
+    const { uniforms, fragmentShader, defines } = this;
+    const material = (this.all[piece] ??= new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader: VERTEX,
       fragmentShader,
       uniforms: { ...uniforms },
+      defines,
       side: DoubleSide,
     }));
     Object.assign(material.uniforms, own);
     return material;
-  };
+  }
+
+  /** Whether pictures need what a name stands for. */
+  define(name: "SECTION" | "DEPTH", on: boolean): void {
+    if (on === name in this.defines) return;
+    if (on) this.defines[name] = 1;
+    else delete this.defines[name];
+    for (const material of this.all) material.needsUpdate = true;
+  }
 }
 
-/** A piece of so many moves, lines of some width or lines of the device. */
-function piece(wide: boolean, moves: number, material: RawShaderMaterial): Mesh | LineSegments {
+/** A piece of so many lines, of some width or of the device. */
+function piece(wide: boolean, lines: number, material: RawShaderMaterial): Mesh | LineSegments {
   const geometry = new BufferGeometry();
-  geometry.setDrawRange(0, moves * (wide ? 6 : 2));
+  geometry.setDrawRange(0, lines * (wide ? 6 : 2));
   const made = wide ? new Mesh(geometry, material) : new LineSegments(geometry, material);
   // It has no vertices that a box could be made of.
   made.frustumCulled = false;

@@ -26,6 +26,11 @@ export class Plan {
     return !this.canvas.hidden && this.canvas.clientWidth > 0;
   }
 
+  /** mm of a pixel, without end where nobody sees it. */
+  get pixel(): number {
+    return this.shown ? 1 / this.scale : Infinity;
+  }
+
   /** Looks at a box; keeps place and scale where there is one already, unless all of it is wanted. */
   open(box: Box, fit = this.box === undefined): void {
     this.box = box;

@@ -45,7 +45,7 @@ const PART_COMES = 300;
 /** Without smooth edges, a picture that stayed as it is for so long is drawn with them, ms. */
 const CALM = 250;
 /** So many pictures are timed, and one that takes longer is slow, ms. */
-const [TRIALS, SLOW] = [7, 60];
+const [TRIALS, SLOW] = [6, 60];
 
 /** What is under the pointer: a piece of the path, or the move that cut the part there last. */
 export type Picked = { piece: number } | { move: number } | undefined;
@@ -345,11 +345,12 @@ export class MachineView {
       this.asked = false;
       if (this.canvas.clientWidth === 0 && !this.plan.shown) return;
       this.canvas.toggleAttribute("data-rough", !this.drawing.smooth && !this.fine);
+      const made = this.paths.see(Math.min(this.plan.pixel, this.canvas.clientWidth > 0 ? 1 / this.scale : Infinity));
       const eye = this.direction;
       this.stock.setEye(eye.x, eye.y, eye.z);
       const began = performance.now();
       if (this.plan.shown) this.renderPlan();
-      if (this.canvas.clientWidth > 0) this.render();
+      if (this.canvas.clientWidth > 0) this.render(made);
       // Of one with edges smoothed after the others, nobody waits for the next.
       const moves = this.drawing.smooth || !this.fine;
       if (this.timed && moves) {
@@ -388,18 +389,17 @@ export class MachineView {
   }
 
   /** Draws; the first pictures of a program follow each other and are timed, so that nobody's seek is the first to find out
-   * how fine part and path can be. */
-  private render(): void {
+   * how fine part and path can be. Of new lines the first picture compiles and uploads. */
+  private render(made: boolean): void {
     const began = performance.now();
     this.wireframe();
     this.stock.prepare(1 / this.scale, this.slow || !this.drawing.smooth);
     this.stock.compile();
     this.fill(this.camera, this.canvas.clientWidth, this.canvas.clientHeight);
     if (this.trials === 0 || !this.path) return;
-    this.trials -= 1;
     this.wait();
-    // The first one compiles and uploads.
-    if (this.trials === TRIALS - 1) return this.draw();
+    if (made) return this.draw();
+    this.trials -= 1;
     if (this.judge(performance.now() - began)) this.draw();
     else this.trials = 0;
   }
@@ -474,12 +474,12 @@ export class MachineView {
   }
 
   /** Of the moves that are drawn as one line, the one that is nearest to a pixel. */
-  private nearest(first: number, pixel: [number, number], eye: Eye): number {
+  private nearest(line: number, pixel: [number, number], eye: Eye): number {
     const { path } = this;
-    const { every } = this.paths;
-    if (!path || every === 1) return first;
+    const [first, last] = this.paths.piecesOf(line);
+    if (!path || first === last) return first;
     let [best, found] = [Infinity, first];
-    for (let piece = first; piece < Math.min(first + every, path.pieces); piece += 1) {
+    for (let piece = first; piece <= last; piece += 1) {
       const far = Math.min(...endsOf(path, piece).map((end) => {
         const [x, y] = seenAt(eye, end);
         return Math.hypot(x - pixel[0], y - pixel[1]);
