@@ -5,11 +5,12 @@ import { before, test } from "node:test";
 import { build } from "esbuild";
 import { fileURLToPath } from "node:url";
 
-let runsOf, evenly;
+let runsOf, evenly, Paths;
 before(async () => {
-  const entry = fileURLToPath(new URL("../src/machine/runs.ts", import.meta.url));
-  const { outputFiles } = await build({ entryPoints: [entry], bundle: true, format: "esm", write: false });
-  ({ runsOf, evenly } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`));
+  const resolveDir = fileURLToPath(new URL("../src/machine", import.meta.url));
+  const stdin = { contents: 'export * from "./runs"; export { Paths } from "./paths";', resolveDir };
+  const { outputFiles } = await build({ stdin, bundle: true, format: "esm", write: false });
+  ({ runsOf, evenly, Paths } = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`));
 });
 
 /** A path through points, a second a piece; `change` may make its pieces others. */
@@ -99,4 +100,70 @@ test("without a tolerance each move is a line, and more lines than wanted are no
   assert.equal(runsOf(path, 0, 99), undefined);
   assert.equal(runsOf(path, 0, 100).length, 100);
   assert.deepEqual([...evenly(7, 3)], [0, 3, 6]);
+});
+
+test("lines are made anew for a nearer eye, few of them, and none where each move is to have its own", () => {
+  const paths = new Paths();
+  // Rows of waves, whose bends are many.
+  const waves = through(Array.from({ length: 200_001 }, (_, at) => [(at % 2000) / 10, Math.floor(at / 2000) + Math.sin(at / 7), 0]));
+  const box = { low: [0, -1, 0], high: [200, 101, 0] };
+  const lines = () => paths.drawn.children[0].children.reduce((sum, mesh) => sum + mesh.geometry.drawRange.count / 6, 0);
+  const path = { ...waves, box, line: Uint32Array.from({ length: waves.pieces }, (_, at) => Math.floor(at / 3)) };
+  paths.set(path, true, false);
+  assert.equal(paths.see(0.4), true);
+  const far = lines();
+  assert.ok(far > 1000 && far <= 40_000, String(far));
+  assert.equal(paths.fineness, 1);
+  for (let at = 0; at < far; at += 40) {
+    const [first, last] = paths.piecesOf(at);
+    const [from, to] = [[path.x0[first], path.y0[first], 0], [path.x1[last], path.y1[last], 0]];
+    for (let piece = first; piece <= last; piece += 1) assert.ok(away([path.x1[piece], path.y1[piece], 0], from, to) < 0.201, "half a pixel");
+  }
+  assert.equal(paths.coarser(), false);
+  assert.equal(paths.see(0.3), false);
+  assert.equal(paths.see(0.1), true);
+  assert.ok(lines() > far);
+  // Each move is far from the next one in such a picture.
+  assert.equal(paths.see(1e-4), true);
+  assert.ok(lines() <= 40_000 && paths.fineness > 1, `${lines()} lines, ${paths.fineness}`);
+  // A path like it is as fine, at once, from wherever the eye is.
+  const { fineness } = paths;
+  paths.set(path, false, true);
+  assert.equal(lines(), 0);
+  assert.equal(paths.see(1e-4), true);
+  assert.equal(paths.fineness, fineness);
+  for (let tries = 0; paths.finer(); tries += 1) {
+    const before = lines();
+    assert.ok(tries < 5 && paths.see(1e-4));
+    assert.ok(lines() >= before);
+  }
+  assert.equal(lines(), path.pieces);
+  assert.equal(paths.fineness, 0);
+  assert.equal(paths.see(1e-5), false);
+  assert.equal(paths.coarser(), true);
+  assert.ok(paths.see(0.4) && lines() === far);
+});
+
+test("what is done ends where the tool is on a line of several moves, and marked moves are lines of their own", () => {
+  const paths = new Paths();
+  const long = straight(6000).map(([x]) => [x < 3000 ? x : 3000 + (x - 3000) / 10, 0, 0]);
+  const path = { ...through(long), box: { low: [0, 0, 0], high: [3300, 0, 0] } };
+  path.line = Uint32Array.from({ length: path.pieces }, (_, at) => 1 + (at % 2000));
+  paths.setNow(2900, 0.5);
+  paths.set(path, true, false);
+  paths.see(0.5);
+  const { now, share, until } = paths.drawn.children[0].children[0].material.uniforms;
+  const [first, last] = paths.piecesOf(now.value);
+  assert.ok(first <= 2900 && last >= 2900 && last > first);
+  const place = (along) => path.x0[first] + along * (path.x1[last] - path.x0[first]);
+  assert.ok(Math.abs(place(share.value) - 2900.5) < 0.01, String(place(share.value)));
+  assert.ok(Math.abs(place(until.value) - 2901) < 0.01);
+  paths.setMarked(7, 8);
+  const [marked] = paths.drawn.children[1].children;
+  assert.equal(marked.geometry.drawRange.count / 6, 6);
+  const { data } = marked.material.uniforms.moves.value.image;
+  assert.deepEqual([0, 1, 2, 3].map((at) => data[at * 8]), [6, 7, 2006, 2007]);
+  assert.equal(marked.material.uniforms.now.value, 3);
+  paths.setMarked(-1, -1);
+  assert.equal(paths.drawn.children[1].children.length, 0);
 });

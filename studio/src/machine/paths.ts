@@ -23,7 +23,8 @@ import { isRapid, type Path } from "../engine/path";
 import { evenly, runsOf } from "./runs";
 import { CHUNK, FRAGMENT, MOMENTS, PICK, ROW, TEXELS, VERTEX } from "./shaders";
 
-/** What lines of some width are drawn up to; more are lines of the device, a third of the work. */
+/** What lines of some width are drawn up to; more, or those of more moves that are coarser than the picture, are lines of the device, a third
+ * of the work. */
 const WIDE = 300_000;
 
 export const COLOURINGS = ["kind", "tool", "operation", "feed", "depth", "time"] as const;
@@ -34,7 +35,7 @@ const [FEW, NO_TIME] = [40_000, 4_000];
 /** So many marked moves are drawn. */
 const MARKED = 100_000;
 /** Width of a line, of a marked one, and of one that a pointer meets, in pixels. */
-const [WIDTH, THICK, MET] = [1.6, 3, 7];
+const [WIDTH, THICK, MET] = [1.6, 3.04, 7];
 /** Steps of half a pixel: a picture does not show the least, and the greatest is as wide as all of it. */
 const [LEAST, GREATEST] = [1 / 256, 4096];
 
@@ -169,7 +170,7 @@ export class Paths {
     clear(this.plain);
     clear(this.pick);
     const count = this.lines.first.length;
-    const wide = count <= WIDE;
+    const wide = count <= WIDE && (path.pieces <= WIDE || this.step <= 1);
     this.uniforms.width!.value = wide ? WIDTH : 0;
     this.pickUniforms.width!.value = wide ? MET : 0;
     const operations = new Operations(path);
