@@ -344,9 +344,15 @@ page("by software a picture has smooth edges once nothing moves, and a quarter o
 });
 
 both("many moves are lines for several where the device draws slowly, and a click finds its move all the same", {}, async (own) => {
+  await type(own, long(20_000));
+  await drawn(own);
+  // Nothing is lost that the picture could show, and nothing is said.
+  assert.match(await data(own, "fineness"), / [01]$/);
+  assert.doesNotMatch(await value(own, "#scale"), / px/);
   await type(own, long(310_000));
   // So many bends are more than such a device draws to half a pixel.
   await own.waitForFunction(() => /path within [1-9]\d* px/.test(document.querySelector("#scale").textContent));
+  assert.match(await data(own, "fineness"), / (?:[248]|[1-9]\d+)$/);
   assert.equal(await data(own, "pieces"), "310002");
   await own.click("#part");
   await own.click('[data-side="top"]');
