@@ -23,8 +23,8 @@ import { isRapid, type Path } from "../engine/path";
 import { evenly, runsOf } from "./runs";
 import { CHUNK, FRAGMENT, MOMENTS, PICK, ROW, TEXELS, VERTEX } from "./shaders";
 
-/** What lines of some width are drawn up to; more, or those of more moves that are coarser than the picture, are lines of the device, a third
- * of the work. */
+/** What lines of some width are drawn up to; more are lines of the device, a third of the work. So are those of more moves if they are
+ * coarser than the picture. */
 const WIDE = 300_000;
 
 export const COLOURINGS = ["kind", "tool", "operation", "feed", "depth", "time"] as const;
@@ -103,7 +103,7 @@ export class Paths {
 
   /** Another path, for a device that draws slowly or may do so; one that is like the last is drawn as finely. */
   set(path: Path | undefined, slow: boolean, alike: boolean): void {
-    this.path = path && path.pieces > 0 ? path : undefined;
+    this.path = path;
     this.lines = NONE;
     this.made = 0;
     clear(this.plain);
