@@ -234,7 +234,7 @@ const TEXTURES = [
 /** Cells along a side of which a part has many. */
 const MANY = 700;
 /** Cells between two points at most; more only where points stay so near each other in the picture, in pixels. */
-const [COARSEST, NEAR] = [4, 4];
+const [COARSEST, NEAR] = [4, 2];
 /** Triangles are as they were until a pixel is so many times smaller, or larger. */
 const [NEARER, FARTHER] = [1.5, 4];
 /** Of a picture's pixel, how far a triangle may be from the part; and of its slope, mm a mm: a sixtieth of the light. */
