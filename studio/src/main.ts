@@ -7,6 +7,7 @@ import { ProblemList } from "./editor/problems";
 import type { Colours } from "./engine/documents";
 import { TooOld, hostName, loopbackToken, openEngines } from "./engine/host";
 import { MachinePane } from "./machine/pane";
+import { PART_COMES } from "./machine/view";
 import { Desk, download } from "./projects/desk";
 import { ProjectsDialog, wireDrop } from "./projects/dialog";
 import { EXAMPLES, type Example } from "./projects/examples";
@@ -192,16 +193,34 @@ session.pathTold.on((told) => {
   if (told) picture();
   machine?.setTold(session.path.get(), told);
 });
-session.part.on((part) => machine?.setPart(part));
-player.now.on((now) => {
-  const path = session.path.get();
-  placed = player.seconds > 0 && now.time < player.seconds;
+let marking = 0;
+
+/** The moment in editor and charts: while a part is on its way, after its picture. To scroll takes as long as to draw. */
+function mark(): void {
+  clearTimeout(marking);
+  marking = 0;
+  const [path, now] = [session.path.get(), player.now.get()];
   charts.setTime(now.time, now.piece, now.share);
-  if (path) void session.seek(movesOver(path, now));
-  machine?.setNow(path, now, session.seeks);
   // The end of a program is where a page begins: no line is marked then.
   const line = path && placed && now.piece >= 0 ? (path.line[now.piece] ?? 0) : 0;
   editor.markNow(line, follow);
+}
+
+session.part.on((part) => {
+  machine?.setPart(part);
+  if (!marking) return;
+  clearTimeout(marking);
+  // The browser shows a picture in about the time that it takes.
+  marking = window.setTimeout(mark, 2 * (machine?.lasts ?? 0));
+});
+player.now.on((now) => {
+  const path = session.path.get();
+  placed = player.seconds > 0 && now.time < player.seconds;
+  if (path) void session.seek(movesOver(path, now));
+  machine?.setNow(path, now, session.seeks);
+  if (!session.seeks) return mark();
+  // While a program plays, moments follow each other faster than parts.
+  marking ||= window.setTimeout(mark, PART_COMES);
 });
 
 await desk.begin().catch(() => desk.example(EXAMPLES[0] as Example));

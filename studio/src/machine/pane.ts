@@ -142,6 +142,11 @@ export class MachinePane {
     this.view?.draw();
   }
 
+  /** How long a picture takes, as far as it was timed, ms. */
+  get lasts(): number {
+    return this.view?.lasted ?? 0;
+  }
+
   private open(): MachineView | undefined {
     const canvas = byId<HTMLCanvasElement>("canvas");
     const drawing = drawingOn(canvas);

@@ -23,8 +23,7 @@ import { isRapid, type Path } from "../engine/path";
 import { evenly, runsOf } from "./runs";
 import { CHUNK, FRAGMENT, MOMENTS, PICK, ROW, TEXELS, VERTEX } from "./shaders";
 
-/** What lines of some width are drawn up to; more are lines of the device, a third of the work. So are those of more moves if they are
- * coarser than the picture. */
+/** Moves up to which lines have some width; of more they are lines of the device, half of the work or less. */
 const WIDE = 300_000;
 
 export const COLOURINGS = ["kind", "tool", "operation", "feed", "depth", "time"] as const;
@@ -170,7 +169,7 @@ export class Paths {
     clear(this.plain);
     clear(this.pick);
     const count = this.lines.first.length;
-    const wide = count <= WIDE && (path.pieces <= WIDE || this.step <= 1);
+    const wide = path.pieces <= WIDE;
     this.uniforms.width!.value = wide ? WIDTH : 0;
     this.pickUniforms.width!.value = wide ? MET : 0;
     const operations = new Operations(path);

@@ -271,6 +271,7 @@ export class StockView {
   private cells: [number, number] = [0, 0];
   private colouring: 0 | 1 | 2 | 3 = 0;
   private compiled = "";
+  private finest = 1;
   /** The pixel that the triangles were made for, mm; 0 for all triangles, and nothing for none. */
   private made: number | undefined;
 
@@ -310,7 +311,7 @@ export class StockView {
     this.uniforms.bottom!.value = low[2];
     if (this.cells[0] === cells[0] && this.cells[1] === cells[1]) return;
     // Of many cells few are drawn until it is known how quick the device is.
-    if (slow && Math.max(...cells) > MANY) this.uniforms.stride!.value = COARSEST;
+    if (slow && Math.max(...cells) > MANY) this.finest = COARSEST;
     this.cells = cells;
     const [across, along] = cells;
     for (const [name, Type, format, type] of TEXTURES) {
@@ -324,9 +325,9 @@ export class StockView {
     this.setStride(this.stride);
   }
 
-  /** Cells between two points that are drawn. */
+  /** Cells between two points of a picture that stays. */
   get stride(): number {
-    return this.uniforms.stride!.value as number;
+    return this.finest;
   }
 
   /** Fewer points, for a device that draws slowly; false where there are few already. A cell is so many pixels wide. */
@@ -345,23 +346,27 @@ export class StockView {
   }
 
   private setStride(stride: number): void {
-    this.uniforms.stride!.value = stride;
-    this.uniforms.points!.value.set(...this.cells.map((cells) => Math.ceil((cells - 1) / stride) + 1));
+    this.finest = stride;
     this.made = undefined;
   }
 
-  /** Before a picture whose pixels are so many mm: triangles as fine as it shows, or all of them for a device that draws quickly. */
-  prepare(pixel: number, slow: boolean): void {
-    const { cell, bottom, heights } = this.uniforms;
+  /** Before a picture whose pixels are so many mm: all triangles, as few as it shows, or the least, for one that soon another follows. */
+  prepare(pixel: number, triangles: "all" | "few" | "least"): void {
+    const { cell, bottom, heights, stride } = this.uniforms;
     if (!heights!.value) return;
     // The eye came nearer: points that are far from each other now get others between them.
-    while (this.stride > COARSEST && this.stride * cell!.value > 2 * NEAR * pixel) this.finer();
-    const fits = slow ? this.made && pixel > this.made / NEARER && pixel < this.made * FARTHER : this.made === 0;
-    if (fits) return;
-    this.made = slow ? pixel : 0;
+    while (this.finest > COARSEST && this.finest * cell!.value > 2 * NEAR * pixel) this.finer();
+    const isRough = triangles === "least" && this.finest > 1 && 2 * this.finest * cell!.value < 2 * NEAR * pixel;
+    const wanted = isRough ? 2 * this.finest : this.finest;
+    const [made, lies] = [this.made, stride!.value === wanted];
+    const fits = triangles === "all" ? made === 0 : made && pixel > made / NEARER && pixel < made * FARTHER;
+    if (fits && lies) return;
+    this.made = triangles === "all" ? 0 : pixel;
+    stride!.value = wanted;
+    this.uniforms.points!.value.set(...this.cells.map((cells) => Math.ceil((cells - 1) / wanted) + 1));
     const points = this.uniforms.points!.value.toArray() as [number, number];
-    const grid = { heights: heights!.value.image.data, cells: this.cells, cell: cell!.value, bottom: bottom!.value, stride: this.stride, points };
-    const index = new BufferAttribute(slow ? few(grid, { height: SEEN * pixel, slope: LIT }) : all(points), 1);
+    const grid = { heights: heights!.value.image.data, cells: this.cells, cell: cell!.value, bottom: bottom!.value, stride: wanted, points };
+    const index = new BufferAttribute(triangles === "all" ? all(points) : few(grid, { height: SEEN * pixel, slope: LIT }), 1);
     for (const mesh of [this.drawn, this.pick]) {
       mesh.geometry.dispose();
       mesh.geometry = new BufferGeometry();

@@ -41,7 +41,7 @@ const NO_PATH: Box = { low: [0, 0, 0], high: [100, 100, 20] };
 /** Pixels around a pointer that are looked through for a move. */
 const REACH = 9;
 /** A picture that a newer part will change waits so long for it, ms. */
-const PART_COMES = 300;
+export const PART_COMES = 300;
 /** Without smooth edges, a picture that stayed as it is for so long is drawn with them, ms. */
 const CALM = 250;
 /** So many pictures are timed, and one that takes longer is slow, ms. */
@@ -69,6 +69,8 @@ export class MachineView {
   /** Whether the time of each picture is measured, and the last one, ms. */
   timed = false;
   spent = 0;
+  /** How long the last picture took that was timed on its own account, ms. */
+  lasted = 0;
   /** mm between the grid's lines. */
   step = 10;
   /** How often the picture was drawn, and how often of that for its edges alone. */
@@ -159,7 +161,7 @@ export class MachineView {
     this.tool.position.set(...place);
     this.tool.quaternion.setFromUnitVectors(UPRIGHT, new Vector3(...direction));
     this.canvas.dataset.leans = direction.map((part) => part.toFixed(4)).join(" ");
-    if (!partComes || !this.slow) return this.draw();
+    if (!partComes || this.isQuick) return this.draw();
     clearTimeout(this.calm);
     // While a program plays, moments follow each other faster than that: the first of them counts.
     this.late ||= window.setTimeout(() => this.draw(), PART_COMES);
@@ -365,6 +367,11 @@ export class MachineView {
     });
   }
 
+  /** Whether pictures cost next to nothing: by software the browser itself takes as long to show one. */
+  private get isQuick(): boolean {
+    return this.drawing.smooth && !this.slow;
+  }
+
   /** Pixels for each of the page, along a side. By software one, and two once nothing moves. */
   private get ratio(): number {
     return this.drawing.smooth || this.fine ? this.renderer.getPixelRatio() : 1;
@@ -393,14 +400,15 @@ export class MachineView {
   private render(made: boolean): void {
     const began = performance.now();
     this.wireframe();
-    this.stock.prepare(1 / this.scale, this.slow || !this.drawing.smooth);
+    this.stock.prepare(1 / this.scale, this.isQuick ? "all" : this.fine ? "few" : "least");
     this.stock.compile();
     this.fill(this.camera, this.canvas.clientWidth, this.canvas.clientHeight);
     if (this.trials === 0 || !this.path) return;
     this.wait();
     if (made) return this.draw();
     this.trials -= 1;
-    if (this.judge(performance.now() - began)) this.draw();
+    this.lasted = performance.now() - began;
+    if (this.judge(this.lasted)) this.draw();
     else this.trials = 0;
   }
 
@@ -566,7 +574,7 @@ const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 /** How a canvas is drawn on; nothing where WebGL 2 is missing. */
 export function drawingOn(canvas: HTMLCanvasElement): Drawing | undefined {
   const smooth = hasGraphics();
-  const context = canvas.getContext("webgl2", { antialias: smooth, powerPreference: "high-performance" });
+  const context = canvas.getContext("webgl2", { alpha: false, antialias: smooth, powerPreference: "high-performance" });
   return context ? { context, smooth } : undefined;
 }
 
