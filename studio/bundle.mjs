@@ -17,6 +17,16 @@ if (!folder) {
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 
+/** Shaders as they are compiled: a page does not read their comments. */
+const shaders = {
+  name: "shaders",
+  setup: ({ onLoad }) =>
+    onLoad({ filter: /src.machine.[a-z-]+\.ts$/ }, ({ path }) => {
+      const text = readFileSync(path, "utf8");
+      const bare = (glsl) => glsl.replace(/\/\*[^]*?\*\/|\/\/.*/g, "").replace(/\s*\n\s*/g, "\n");
+      return { contents: text.replace(/\/\* glsl \*\/ `[^`]*`/g, (all) => `\`${bare(all.slice(all.indexOf("`") + 1, -1))}\``), loader: "ts" };
+    }),
+};
 const common = {
   absWorkingDir: here,
   bundle: true,
@@ -29,6 +39,7 @@ const common = {
   loader: { ".nc": "text", ".ngc": "text", ".mpf": "text", ".gcode": "text" },
   outdir: folder,
   logLevel: "warning",
+  plugins: [shaders],
 };
 await build({
   ...common,

@@ -4256,36 +4256,28 @@ precision highp sampler2D;
 `,fg=`
 uniform vec3 scales[4];
 vec3 scale(float at) {
-  float x = clamp(at, 0.0, 1.0) * 3.0;
-  return x < 1.0 ? mix(scales[0], scales[1], x) : x < 2.0 ? mix(scales[1], scales[2], x - 1.0) : mix(scales[2], scales[3], x - 2.0);
+float x = clamp(at, 0.0, 1.0) * 3.0;
+return x < 1.0 ? mix(scales[0], scales[1], x) : x < 2.0 ? mix(scales[1], scales[2], x - 1.0) : mix(scales[2], scales[3], x - 2.0);
 }
 `,FC=`${NC}
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 uniform sampler2D moves;
-/** Number of the first line of this texture, and the line that is under way. */
 uniform int base;
 uniform int now;
-/** How much of the line under way is done, and how much of it will be after the move under way. */
 uniform float share;
 uniform float until;
-/** Pixels of the picture, and width of a line in them; 0 draws lines of the device. */
 uniform vec2 size;
 uniform float width;
-/** Whether these are the marked lines. */
 uniform int marked;
-/** Bits of the kinds that are shown. */
 uniform int shown;
 uniform int future;
 uniform vec3 kinds[4];
 uniform vec3 tools[8];
 uniform vec3 mark;
-/** As COLOURINGS of the paths have it. */
 uniform int colouring;
-/** Least and greatest feed, then height. */
 uniform vec4 range;
 ${fg}
-
 out float along;
 out float dash;
 out float height;
@@ -4294,52 +4286,48 @@ flat out int number;
 flat out vec3 tone;
 flat out vec2 ends;
 flat out vec2 faint;
-
 void main() {
-  int corners = width > 0.0 ? 6 : 2;
-  int own = gl_VertexID / corners;
-  int corner = gl_VertexID - own * corners;
-  int x = (own % 1024) * 2;
-  int y = own / 1024;
-  vec4 from = texelFetch(moves, ivec2(x, y), 0);
-  vec4 to = texelFetch(moves, ivec2(x + 1, y), 0);
-  int look = int(from.w);
-  int kind = look & 7;
-  bool rapid = kind == 0 || kind == 4;
-  number = base + own;
-  tone = kinds[kind & 3];
-  if (colouring == 1) tone = tools[(look >> 4) & 7];
-  if (colouring == 2) tone = tools[(look >> 7) & 7];
-  if (colouring == 3 && !rapid) tone = scale((to.w - range.x) / max(range.y - range.x, 1e-6));
-  if (colouring == 5) tone = scale(float(look >> 10) / 8191.0);
-  if (marked == 1) tone = mark;
-  bool hidden = (shown & (1 << (kind & 3))) == 0 || (future == 0 && number > now);
-  vec4 a = projectionMatrix * modelViewMatrix * vec4(from.xyz, 1.0);
-  vec4 b = projectionMatrix * modelViewMatrix * vec4(to.xyz, 1.0);
-  vec2 way = (b.xy - a.xy) * size * 0.5;
-  float pixels = length(way);
-  bool ahead = corners == 2 ? corner == 1 : corner == 1 || corner == 2 || corner == 4;
-  along = ahead ? 1.0 : 0.0;
-  place = ahead ? to.xyz : from.xyz;
-  // One move has the colour of its end, several have those of all heights on their way.
-  height = (look & 8) == 0 ? to.z : place.z;
-  // Rapid moves are dashed.
-  dash = rapid && marked == 0 && pixels > 9.0 ? along * pixels : 0.0;
-  float passed = float(now - number);
-  ends = vec2(passed + share, future == 0 ? passed + until : 1.0);
-  // A rapid move says less than a cut.
-  faint = marked == 1 ? vec2(0.0) : vec2(rapid ? 0.25 : 0.0, 0.72);
-  gl_Position = ahead ? b : a;
-  if (width > 0.0) {
-    vec2 side = pixels > 0.001 ? vec2(-way.y, way.x) / pixels : vec2(0.0, 1.0);
-    vec2 end = pixels > 0.001 ? way / pixels * (ahead ? 0.5 : -0.5) : vec2(ahead ? 0.5 : -0.5, 0.0);
-    float half_ = width * 0.5;
-    bool left = corner == 2 || corner == 4 || corner == 5;
-    gl_Position.xy += (side * (left ? half_ : -half_) + end * half_) * 2.0 / size;
-  }
-  if (marked == 1) gl_Position.z -= 0.002;
-  if (number > now) gl_Position.z += 0.001;
-  if (hidden) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+int corners = width > 0.0 ? 6 : 2;
+int own = gl_VertexID / corners;
+int corner = gl_VertexID - own * corners;
+int x = (own % 1024) * 2;
+int y = own / 1024;
+vec4 from = texelFetch(moves, ivec2(x, y), 0);
+vec4 to = texelFetch(moves, ivec2(x + 1, y), 0);
+int look = int(from.w);
+int kind = look & 7;
+bool rapid = kind == 0 || kind == 4;
+number = base + own;
+tone = kinds[kind & 3];
+if (colouring == 1) tone = tools[(look >> 4) & 7];
+if (colouring == 2) tone = tools[(look >> 7) & 7];
+if (colouring == 3 && !rapid) tone = scale((to.w - range.x) / max(range.y - range.x, 1e-6));
+if (colouring == 5) tone = scale(float(look >> 10) / 8191.0);
+if (marked == 1) tone = mark;
+bool hidden = (shown & (1 << (kind & 3))) == 0 || (future == 0 && number > now);
+vec4 a = projectionMatrix * modelViewMatrix * vec4(from.xyz, 1.0);
+vec4 b = projectionMatrix * modelViewMatrix * vec4(to.xyz, 1.0);
+vec2 way = (b.xy - a.xy) * size * 0.5;
+float pixels = length(way);
+bool ahead = corners == 2 ? corner == 1 : corner == 1 || corner == 2 || corner == 4;
+along = ahead ? 1.0 : 0.0;
+place = ahead ? to.xyz : from.xyz;
+height = (look & 8) == 0 ? to.z : place.z;
+dash = rapid && marked == 0 && pixels > 9.0 ? along * pixels : 0.0;
+float passed = float(now - number);
+ends = vec2(passed + share, future == 0 ? passed + until : 1.0);
+faint = marked == 1 ? vec2(0.0) : vec2(rapid ? 0.25 : 0.0, 0.72);
+gl_Position = ahead ? b : a;
+if (width > 0.0) {
+vec2 side = pixels > 0.001 ? vec2(-way.y, way.x) / pixels : vec2(0.0, 1.0);
+vec2 end = pixels > 0.001 ? way / pixels * (ahead ? 0.5 : -0.5) : vec2(ahead ? 0.5 : -0.5, 0.0);
+float half_ = width * 0.5;
+bool left = corner == 2 || corner == 4 || corner == 5;
+gl_Position.xy += (side * (left ? half_ : -half_) + end * half_) * 2.0 / size;
+}
+if (marked == 1) gl_Position.z -= 0.002;
+if (number > now) gl_Position.z += 0.001;
+if (hidden) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }
 `,UC=`${NC}
 in float along;
@@ -4348,19 +4336,15 @@ in float height;
 in vec3 place;
 flat in int number;
 flat in vec3 tone;
-/** How much of the line is done, and how much is shown. */
 flat in vec2 ends;
-/** How much of the ground shows through what is done, and through the rest. */
 flat in vec2 faint;
-/** A section keeps what lies below its plane: a direction, and how far along it. */
 uniform vec4 section;
 out vec4 ink;
-
 bool isHidden() {
 #ifdef SECTION
-  if (dot(section.xyz, place) > section.w) return true;
+if (dot(section.xyz, place) > section.w) return true;
 #endif
-  return along > ends.y;
+return along > ends.y;
 }
 `,Wb=`${UC}
 uniform vec3 ground;
@@ -4368,56 +4352,51 @@ uniform vec4 range;
 uniform int marked;
 ${fg}
 void main() {
-  if (isHidden() || mod(dash, 9.0) > 5.5) discard;
-  vec3 own = tone;
+if (isHidden() || mod(dash, 9.0) > 5.5) discard;
+vec3 own = tone;
 #ifdef DEPTH
-  if (marked == 0) own = scale((height - range.z) / max(range.w - range.z, 1e-6));
+if (marked == 0) own = scale((height - range.z) / max(range.w - range.z, 1e-6));
 #endif
-  ink = vec4(mix(own, ground, along > ends.x ? faint.y : faint.x), 1.0);
+ink = vec4(mix(own, ground, along > ends.x ? faint.y : faint.x), 1.0);
 }
 `,BC=`${UC}
 void main() {
-  if (isHidden()) discard;
-  int id = number + 1;
-  ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 255.0) / 255.0;
+if (isHidden()) discard;
+int id = number + 1;
+ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 255.0) / 255.0;
 }
 `;var HC=3e5,Yb=["kind","tool","operation","feed","depth","time"],[dg,VC]=[4e4,4e3],H4=1e5,[qC,V4,G4]=[1.6,3.04,7],[W4,X4]=[1/256,4096],pg={first:new Uint32Array,last:new Uint32Array};function GC(){return{now:{value:-1},share:{value:0},until:{value:1},size:{value:new Xe(1,1)},width:{value:qC},marked:{value:0},shown:{value:15},future:{value:1},kinds:{value:[0,1,2,3].map(()=>new Ze)},tools:{value:Array.from({length:8},()=>new Ze)},mark:{value:new Ze},ground:{value:new Ze},colouring:{value:0},range:{value:new Lt(0,1,0,1)},scales:{value:[0,1,2,3].map(()=>new Ze)},section:{value:new Lt(0,0,0,1)}}}var mg=class{drawn=new xn;pick=new xn;plain=new xn;thick=new xn;uniforms=GC();pickUniforms=GC();markUniforms={...this.uniforms,marked:{value:1},width:{value:V4},now:{value:-1},until:{value:1}};materials={drawn:new Wu(this.uniforms,Wb),pick:new Wu(this.pickUniforms,BC),marked:new Wu(this.markUniforms,Wb)};path;lines=pg;marks=[-1,-1];marked=pg.first;now=[-1,0];wished=1;step=1;most=dg;made=0;constructor(){this.drawn.add(this.plain,this.thick)}set(e,t,n){this.path=e,this.lines=pg,this.made=0,Gu(this.plain),Gu(this.pick),this.setMarked(...this.marks),e&&(this.uniforms.range.value=gg(e),n||this.wish(e.pieces<=VC||e.pieces<=HC&&!t?0:1,dg))}get fineness(){return this.step&&Math.max(1,this.step)}coarser(){return this.lines.first.length<=VC||this.wished>=1&&this.most===dg?!1:(this.wish(1,dg),!0)}finer(){if(this.wished===0||!this.path)return!1;let e=4*this.lines.first.length;return this.wish(e<this.path.pieces&&this.step>W4?this.step/16:0,e),!0}wish(e,t){this.wished=e,this.most=e>0?t:1/0,this.made=0}see(e){let t=e/this.made;return!this.path||this.made>0&&(this.wished===0||t>=.5&&t<=4)?!1:(this.made=e,this.lines=this.linesOf(this.path,e/2),this.build(this.path),!0)}linesOf(e,t){let{x:n,y:s}=this.uniforms.range.value,r=()=>DC(e,this.step*t,this.most,Math.max(0,this.step-1)/64*(s-n));this.step=this.wished;let o=r();for(;!o&&this.step<X4;)this.step*=2,o=r();return o??=OC(e.pieces,Math.ceil(e.pieces/this.most)),{first:o,last:o.length===e.pieces?o:o.map((a,l)=>(o[l+1]??e.pieces)-1)}}build(e){Gu(this.plain),Gu(this.pick);let t=this.lines.first.length,n=e.pieces<=HC;this.uniforms.width.value=n?qC:0,this.pickUniforms.width.value=n?G4:0;let s=new Qa(e);for(let r=0;r<t;r+=1048576){let o={first:this.lines.first.subarray(r,r+1048576),last:this.lines.last.subarray(r,r+1048576)},a={moves:{value:XC(e,o,s)},base:{value:r}};this.plain.add($b(n,o.first.length,this.materials.drawn.at(r/1048576,a))),this.pick.add($b(n,o.first.length,this.materials.pick.at(r/1048576,a)))}this.setNow(...this.now)}setSection(e){this.uniforms.section.value=this.pickUniforms.section.value=e;let t=e.x!==0||e.y!==0||e.z!==0;Object.values(this.materials).forEach(n=>n.define("SECTION",t))}setNow(e,t){this.now=[e,t],this.markUniforms.now.value=WC(this.marked,e);let n=WC(this.lines.first,e),[s,r]=[t,1].map(o=>this.path&&n>=0?q4(this.path,this.piecesOf(n),e,o):o);for(let o of[this.uniforms,this.pickUniforms])o.now.value=n,o.share.value=s,o.until.value=r}setMarked(e,t){if(this.marks=[e,t],Gu(this.thick),this.marked=this.path&&e>0?$4(this.path,e,t):pg.first,this.path&&this.marked.length>0){let n=XC(this.path,{first:this.marked,last:this.marked},new Qa(this.path));this.thick.add($b(!0,this.marked.length,this.materials.marked.at(0,{moves:{value:n},base:{value:0}})))}this.setNow(...this.now)}piecesOf(e){return[this.lines.first[e]??0,this.lines.last[e]??0]}setShown(e,t){this.uniforms.shown.value=this.pickUniforms.shown.value=e,this.uniforms.future.value=this.pickUniforms.future.value=Number(t)}setColouring(e){this.uniforms.colouring.value=Yb.indexOf(e),[this.materials.drawn,this.materials.marked].forEach(t=>t.define("DEPTH",e==="depth"))}setSize(e,t,n){this.uniforms.size.value.set(e/n,t/n)}setPickSize(e){this.pickUniforms.size.value.set(e,e)}setInks(e){let t=["rapid","feed","clockwise","counterclockwise"].map(n=>e(`--c-move-${n}`));this.uniforms.kinds.value=t,this.uniforms.tools.value=Array.from({length:8},(n,s)=>e(`--c-tool-${s}`)),this.uniforms.scales.value=[0,1,2,3].map(n=>e(`--scale-${n}`)),this.uniforms.mark.value=e("--c-move-marked"),this.uniforms.ground.value=e("--ground")}};function Gu(i){for(let e of[...i.children])(e.material.uniforms.moves?.value).dispose(),e.geometry.dispose(),i.remove(e)}function WC(i,e){let[t,n]=[0,i.length];for(;t<n;){let s=t+n>>1;i[s]<=e?t=s+1:n=s}return t-1}function q4(i,[e,t],n,s){if(e===t)return s;let[r,o]=[0,0];for(let[a,l]of[[i.x0,i.x1],[i.y0,i.y1],[i.z0,i.z1]]){let c=a[e],h=l[t]-c,u=a[n];r+=(u+(l[n]-u)*s-c)*h,o+=h*h}return o>0?Math.min(1,Math.max(0,r/o)):1}function $4(i,e,t){let n=[];for(let s=0;s<i.pieces&&n.length<H4;s+=1){let r=i.line[s];r>=e&&r<=t&&n.push(s)}return Uint32Array.from(n)}var Qa=class{constructor(e){this.path=e}path;piece=0;operation=0;at(e){for(;this.piece<e;this.piece+=1)this.path.tool[this.piece]!==this.path.tool[this.piece+1]&&(this.operation+=1);return this.operation}};function XC(i,{first:e,last:t},n){let{kind:s,tool:r,feed:o,t0:a,x0:l,y0:c,z0:h,x1:u,y1:f,z1:d}=i,p=Math.ceil(e.length/1024),m=new Float32Array(p*1024*2*4),g=8191/Math.max(i.seconds,1e-6);for(let x=0;x<e.length;x+=1){let[w,b,M]=[e[x],t[x],x*2*4],S=s[w]+8*+(b>w)+16*(r[w]&7)+128*(n.at(w)&7);m[M]=l[w],m[M+1]=c[w],m[M+2]=h[w],m[M+3]=S+1024*Math.min(8191,Math.round(a[w]*g)),m[M+4]=u[b],m[M+5]=f[b],m[M+6]=d[b],m[M+7]=o[w]}let v=new Ri(m,1024*2,p,bs,hi);return v.minFilter=v.magFilter=bn,v.needsUpdate=!0,v.onUpdate=()=>v.image.data=null,v}var Wu=class{constructor(e,t){this.uniforms=e;this.fragmentShader=t}uniforms;fragmentShader;all=[];defines={};at(e,t){let{uniforms:n,fragmentShader:s,defines:r}=this,o=this.all[e]??=new ts({glslVersion:ws,vertexShader:FC,fragmentShader:s,uniforms:{...n},defines:r,side:Pn});return Object.assign(o.uniforms,t),o}define(e,t){if(t!==e in this.defines){t?this.defines[e]=1:delete this.defines[e];for(let n of this.all)n.needsUpdate=!0}}};function $b(i,e,t){let n=new Rn;n.setDrawRange(0,e*(i?6:2));let s=i?new pn(n,t):new gu(n,t);return s.frustumCulled=!1,s}function gg(i){let[e,t]=[1/0,-1/0];for(let r=0;r<i.pieces;r+=1){let o=i.feed[r];Bs(i.kind[r])||o<=0||(e=Math.min(e,o),t=Math.max(t,o))}let{low:n,high:s}=i.box;return new Lt(Number.isFinite(e)?e:0,t>0?t:0,n[2],s[2])}function Xu(i){return new Y(...i)}var $C=12;function YC(i,e,t){let n=se("colours");if(n.replaceChildren(),n.hidden=i==="kind"||!e||e.pieces===0,n.hidden||!e)return;let s=gg(e),r=t?.units==="inch"?25.4:1,o=r===1?"mm":X("inch"),a=r===1?0:1;switch(i){case"feed":return n.append(...jb(`${X("feed")}, ${o}/min`,Et(s.x/r,a),Et(s.y/r,a)));case"depth":return n.append(...jb(`Z, ${o}`,Et(s.z/r,a+2),Et(s.w/r,a+2)));case"time":return n.append(...jb(X("time"),Hi(0),Hi(e.seconds)));case"tool":case"operation":return n.append(...Y4(i,e,t))}}function jb(i,e,t){return[R("span",{},i),R("div",{class:"scale"}),R("div",{class:"ends"},R("span",{},e),R("span",{},t))]}function Y4(i,e,t){let n=a=>{let l=t?.tools[a]?.number;return l==null?"T–":`T${l}`},s=[],r=(a,l)=>s.push(R("span",{class:"swatch"},R("i",{class:`band band-${a%8}`}),l));if(i==="tool")t?.tools.forEach((a,l)=>r(l,n(l)));else{let a=new Qa(e),l=-1;for(let c=0;c<e.pieces;c+=1){let h=a.at(c);h!==l&&r(h,`${h+1}: ${n(e.tool[c]??0)}`),l=h}}let o=s.length-$C;return o>0?[...s.slice(0,$C),R("span",{class:"dim"},`+ ${o}`)]:s}function Zb(i,e,t){if(i==="kind"||i==="depth")return;let n=e.move[e.pieces-1]??0,s=new Uint8Array(n+1),r=gg(e),o=new Qa(e),a=c=>Math.round(255*Math.min(1,Math.max(0,c)));for(let c=0;c<e.pieces;c+=1){let h=e.move[c];i==="tool"?s[h]=e.tool[c]%8:i==="operation"?s[h]=o.at(c)%8:i==="feed"?s[h]=a((e.feed[c]-r.x)/Math.max(r.y-r.x,1e-6)):s[h]=a(e.t0[c]/Math.max(e.seconds,1e-6))}let l=new Uint8Array(t.length);for(let c=0;c<l.length;c+=1)l[c]=s[t[c]];return l}function kc(i,e,t,...n){let s=se(`${i}-toggle`),r=R("button",{"aria-label":`${X("close")}: ${X(e)}`});r.append(jn("close"));let o=R("header",{},R("h2",{},X(e)),r),a=R("section",{id:`${i}-card`,class:"card","aria-label":X(e),hidden:!0},o,...n);se("cards").append(a);let l=c=>{a.hidden=!c,s.setAttribute("aria-pressed",String(c)),t(c)};return s.setAttribute("aria-pressed","false"),s.setAttribute("aria-controls",a.id),s.addEventListener("click",()=>l(!!a.hidden)),r.addEventListener("click",()=>{l(!1),s.focus()}),a}var oa=i=>document.getElementById(`${i}-card`)?.hidden===!1;function jC(i,e){oa(i)!==e&&se(`${i}-toggle`).click()}function Lc(i,...e){return R("label",{class:"row"},R("span",{},i),...e)}var qu={material:"plain",colour:"",metalness:0,roughness:.6,wire:!1,azimuth:238,elevation:52,brightness:1},ZC=[["plain","plain",{colour:"",metalness:0,roughness:.6}],["aluminium","aluminium",{colour:"#c9ced3",metalness:.8,roughness:.35}],["steel","steel",{colour:"#8f969c",metalness:.9,roughness:.45}],["brass","brass",{colour:"#c8a24a",metalness:.9,roughness:.3}],["plastic","plastic",{colour:"#2f6fb5",metalness:0,roughness:.25}],["wood","wood",{colour:"#b98a56",metalness:0,roughness:.95}]],Kb=[["metalness","metalness",0,1,.05],["roughness","roughness",0,1,.05],["azimuth","lightFrom",0,360,5],["elevation","lightAbove",0,90,5],["brightness","brightness",0,2,.05]],KC="ncc-look",vg=class{constructor(e,t,...n){this.own=e;this.changed=t;let s=["custom","custom"];this.material.append(...[...ZC,s].map(([a,l])=>R("option",{value:a},X(l)))),this.material.addEventListener("change",()=>{let a=ZC.find(([l])=>l===this.material.value);this.put({...a?.[2]??{},material:this.material.value})}),this.colour.addEventListener("input",()=>this.put({colour:this.colour.value,material:"custom"}));for(let[a,l,c,h,u]of Kb){let f=R("input",{type:"range",min:c,max:h,step:u,"aria-label":X(l)}),d=a==="metalness"||a==="roughness";f.addEventListener("input",()=>this.put({[a]:f.valueAsNumber,...d&&{material:"custom"}})),this.sliders.set(a,f)}this.wire.addEventListener("click",()=>this.put({wire:!this.look.wire}));let r=R("button",{class:"chip"},X("reset"));r.addEventListener("click",()=>this.put(qu));let o=Kb.map(([a,l])=>Lc(X(l),this.sliders.get(a)));kc("look","look",()=>{},Lc(X("material"),this.material),Lc(X("colour"),this.colour),...o,R("div",{class:"row"},this.wire,r,...n)),this.show()}own;changed;look=j4();material=R("select",{id:"material","aria-label":X("material")});colour=R("input",{type:"color","aria-label":X("colour")});sliders=new Map;wire=R("button",{class:"chip"},X("wireframe"));show(){let{look:e}=this;this.material.value=e.material,this.colour.value=e.colour||this.own();for(let[t]of Kb)this.sliders.get(t).value=String(e[t]);this.wire.setAttribute("aria-pressed",String(e.wire)),this.changed(e)}put(e){this.look={...this.look,...e},Ba(KC,JSON.stringify(this.look)),this.show()}};function j4(){try{let i=JSON.parse(Go(KC)??"{}"),e=Object.entries(qu).filter(([n,s])=>typeof i[n]==typeof s),t={...qu,...Object.fromEntries(e.map(([n])=>[n,i[n]]))};return/^(#[0-9a-f]{6})?$/.test(t.colour)?t:qu}catch{return qu}}function JC({azimuth:i,elevation:e}){let[t,n]=[i,e].map(s=>s*Math.PI/180);return[Math.cos(t)*Math.cos(n),Math.sin(t)*Math.cos(n),Math.sin(n)]}var Z4=25.4,Jb=["A","B"],Qb=["X","Y","Z"],yg=class{constructor(e,t){this.tool=e;this.changed=t;this.kinds=Jb.map(()=>R("small",{class:"dim"})),this.inputs=Jb.map((r,o)=>Qb.map(a=>{let l=R("input",{type:"number",step:"any",placeholder:a,"aria-label":`${r} ${a}`});return l.addEventListener("change",()=>this.typed(o)),l}));let n=Jb.map((r,o)=>{let a=R("button",{class:"chip","aria-label":`${r}: ${X("atTool")}`},X("atTool"));return a.addEventListener("click",()=>this.atTool(o)),R("div",{class:"row place"},R("b",{},r),...this.inputs[o]??[],a,this.kinds[o])}),s=R("button",{class:"chip"},X("clear"));s.addEventListener("click",()=>this.clear()),kc("measure","measure",()=>this.show(),R("p",{class:"dim"},X("measureHow")),...n,R("div",{role:"status"},this.result),this.unsure,s)}tool;changed;places=[void 0,void 0];inputs;kinds;result=R("dl",{id:"measured"});unsure=R("p",{class:"dim"});cut;next=0;setCut(e){this.cut=e,this.show()}get active(){return oa("measure")}take(e,t=this.next){this.places[t]=e,this.next=t===0?1:0,this.show()}atTool(e=this.next){let t=this.tool();t&&this.take({at:t,kind:"tool"},e)}get unit(){return this.cut?.units==="inch"?Z4:1}typed(e){let t=(this.inputs[e]??[]).map(n=>(n.valueAsNumber||0)*this.unit);this.take({at:t,kind:"typed"},e)}clear(){this.places.fill(void 0),this.next=0,this.show()}show(){let{unit:e}=this,[t,n]=e===1?["mm",3]:[X("inch"),4];for(let[h,u]of this.places.entries())this.inputs[h]?.forEach((f,d)=>{(f!==document.activeElement||u?.kind!=="typed")&&(f.value=u?String(Number(((u.at[d]??0)/e).toFixed(n))):"")}),this.kinds[h].textContent=u?X(`snap_${u.kind}`):"";let[s,r]=this.places,o=s&&r?Qb.map((h,u)=>((r.at[u]??0)-(s.at[u]??0))/e):void 0,a=h=>h===void 0?"–":`${Et(h,n)} ${t}`,l=[[X("distance"),o&&Math.hypot(...o)],...Qb.map((h,u)=>[`Δ${h}`,o?.[u]])];this.result.replaceChildren(...l.flatMap(([h,u])=>[R("dt",{},h),R("dd",{},a(u))]));let c=this.places.some(h=>h?.kind==="cell"||h?.kind==="edge");this.unsure.textContent=c&&this.cut?X("measureUnsure",{by:Et(this.cut.raw.cell/2/e,n),unit:t}):"",se("canvas").dataset.measured=o?o.map(h=>h.toFixed(4)).join(" "):"",this.changed(this.active?this.places.map(h=>h?.at):[])}};var K4=10,QC=1.5,xg=24;function $u({camera:i,width:e,height:t},n){let s=new Y(...n).project(i);return[(s.x+1)/2*e,(1-s.y)/2*t]}function e2(i,e,{raw:t},n,s){let r=[-1,1].map(x=>new Y(e[0]/i.width*2-1,1-e[1]/i.height*2,x).unproject(i.camera).toArray()),[o,a]=r,[l,c]=t.cells,h=t.low,u=[h[0]+l*t.cell,h[1]+c*t.cell,t.high[2]+1e-6],f=a.map((x,w)=>x-o[w]),[d,p]=[0,1];for(let x of[0,1,2]){if(Math.abs(f[x])<1e-12){if(o[x]<h[x]||o[x]>u[x])return;continue}let[w,b]=[(h[x]-o[x])/f[x],(u[x]-o[x])/f[x]];d=Math.max(d,Math.min(w,b)),p=Math.min(p,Math.max(w,b))}if(d>p)return;let m=x=>o.map((w,b)=>w+f[b]*x),g=Math.hypot(f[0],f[1])*(p-d),v=Math.max(1,Math.ceil(g/t.cell*4));for(let x=0;x<=v;x+=1){let w=m(d+(p-d)*x/v);if(!s(w))continue;let b=Math.min(l-1,Math.max(0,Math.floor((w[0]-h[0])/t.cell))),S=Math.min(c-1,Math.max(0,Math.floor((w[1]-h[1])/t.cell)))*l+b,y=n.heights[S];if((w[2]>y||n.hollows.has(S,w[2]))&&!(v===1&&y>h[2]))continue;return{at:v===1?[w[0],w[1],y]:w,cell:S}}}function t2(i,e,t,n,s,r){let o=m=>{let[g,v]=$u(i,m);return Math.hypot(g-e[0],v-e[1])},a=m=>new Y(...m).project(i.camera).z,l=m=>{let[g,v]=[K4,void 0];for(let x of m){let w=o(x);(w<g-.25||v&&w<g+.25&&a(x)<a(v))&&([g,v]=[w,x])}return v},c=l(r);if(c)return{at:c,kind:"end"};if(!s)return;let h=l(Q4(t,n,s.cell));if(h)return{at:h,kind:"edge"};let[u,f]=J4(t,s.cell),d=n.heights[s.cell],p=n.hollows.of(s.cell);return{at:[u,f,p[0]<p[1]&&s.at[2]<d?s.at[2]:d],kind:"cell"}}function J4({raw:i},e){let[t]=i.cells;return[i.low[0]+(e%t+.5)*i.cell,i.low[1]+(Math.floor(e/t)+.5)*i.cell]}function Q4(i,e,t){let{raw:n}=i,[s,r]=n.cells,[o,a]=[t%s,Math.floor(t/s)],l=(h,u)=>h>=0&&u>=0&&h<s&&u<r?Math.max(n.low[2],e.heights[u*s+h]):n.low[2],c=[];for(let h=Math.max(-1,a-xg);h<=Math.min(r-1,a+xg);h+=1)for(let u=Math.max(-1,o-xg);u<=Math.min(s-1,o+xg);u+=1){let f=l(u,h),[d,p]=[l(u+1,h),l(u,h+1)],m=[n.low[0]+(u+1)*n.cell,n.low[1]+(h+1)*n.cell],g=[m[0]-n.cell/2,m[1]-n.cell/2];Math.abs(f-d)>QC*n.cell&&c.push([m[0],g[1],f],[m[0],g[1],d]),Math.abs(f-p)>QC*n.cell&&c.push([g[0],m[1],f],[g[0],m[1],p])}return c}function bg(i,e){let t=(...n)=>n.map(s=>s[e]??0);return[t(i.x0,i.y0,i.z0),t(i.x1,i.y1,i.z1)]}var e5=["rapid","feedMove","clockwise","counterclockwise","away"],t5=["X","Y","Z","A","B","C","F","S","T","block","codes"],ew=["X","Y","Z"],wg=["A","B","C"],n5=["head",...ew,...wg,"","F","S","T","Ø","","coolant","offsets","codes","","block","move","time"],n2=["work-offset","length-offset","compensation"],i5=[...n2,"coolant","feed","speed","tool","spindle"],Sg=class{values=new Map;shownModes="";constructor(){let e={head:"",block:X("line"),move:"",time:X("time"),coolant:X("modeCoolant"),offsets:X("offsets"),codes:X("codes")};for(let t of n5){if(!t){se("readout").append(R("div",{class:"gap more"}));continue}let n=t5.includes(t)?"":"more",s=!["head",...ew,...wg].includes(t),r=`now-${t.toLowerCase()}`,o=R("dt",{class:n},e[t]??t),a=R("dd",{id:r,class:`${n}${s?" wide-value":""}`},"–");if(this.values.set(t,a),se("readout").append(o,a),s)continue;let l=R("dd",{id:`${r}-machine`,class:`${n} of-machine`},t==="head"?X("machine"):"–");this.values.set(`${t} machine`,l),se("readout").append(l)}this.put("head",X("part")),wg.forEach(t=>this.hide(t,!0))}show(e,t,n){let s=(c,h)=>this.put(c,h);if(!e||e.pieces===0)return this.modes([],!1),[...this.values.keys()].filter(c=>!c.startsWith("head")).forEach(c=>s(c,"–"));let r=Math.max(0,t.piece);this.places(e,t);let o=Bs(e.kind[r]);s("F",o?"–":Et(e.feed[r]??0,0));let a=e.modes?.ofMove(e.move[r]??0)??[],l=a.find(c=>c.mode==="spindle")?.text??"";s("S",`${Et(e.speed[r]??0,0)} ${l}`.trim()),s("T",n?n.number===null?"–":String(n.number):"–"),s("Ø",n?`${n.known==="guess"?"≈ ":""}${Et(n.diameter,1)}`:"–"),this.modes(a,!0),s("block",String(e.line[r]??0)),s("move",X(e5[e.kind[r]??0]??"rapid")),s("time",Hi(t.time))}places(e,t){let n=Math.max(0,t.piece),s=e.move[n]??0,r=Qh(e,t),o=e.modes?.places(s,r)??{work:r,machine:[void 0,void 0,void 0]},a=e.kind[n]===4;se("readout").classList.toggle("no-machine",o.machine.every(c=>c===void 0)),ew.forEach((c,h)=>{let u=!(a&&c==="Z"),f=u?o.machine[h]:void 0;this.put(c,u?Et(o.work[h]??0,3):"–"),this.put(`${c} machine`,f===void 0?"–":Et(f,3))});let l=e.modes?.turns(s,s5(e,t));wg.forEach((c,h)=>{this.hide(c,!l),l&&this.put(c,Et(l[h]??0,3))})}modes(e,t){let n=e.find(o=>o.mode==="work-offset");this.put("head",n?.text??X("part"));let s=JSON.stringify(e);if(s===this.shownModes&&t)return;this.shownModes=s;let r={coolant:o=>o.mode==="coolant",offsets:o=>n2.includes(o.mode),codes:o=>!i5.includes(o.mode)};for(let[o,a]of Object.entries(r)){let l=e.filter(a).map(c=>nT(c));this.values.get(o)?.replaceChildren(...l.length>0?l.flatMap(c=>[c," "]):["–"])}for(let[o,a]of[["F","feed"],["S","speed"],["T","tool"]]){let l=e.some(c=>c.mode===a&&c.changed);this.values.get(o)?.classList.toggle("changed",l)}}put(e,t){let n=this.values.get(e);n&&n.textContent!==t&&(n.textContent=t)}hide(e,t){let n=this.values.get(e);if(!n||n.hidden===t)return;let s=this.values.get(`${e} machine`);for(let r of[n.previousElementSibling,n,s])r&&(r.hidden=t)}};function s5(i,e){let t=Math.max(0,e.piece),[n,s]=[t,t];for(;n>0&&i.move[n-1]===i.move[t];)n-=1;for(;s+1<i.pieces&&i.move[s+1]===i.move[t];)s+=1;let[r,o]=[i.t0[n]??0,i.t1[s]??0];return e.piece<0?0:o>r?Math.min(1,Math.max(0,(e.time-r)/(o-r))):e.share}var r5=[["X","#d8463c",new Y(1,0,0)],["Y","#2f9e57",new Y(0,1,0)],["Z","#3f82e6",new Y(0,0,1)]];function i2(i){let e="http://www.w3.org/2000/svg",t=r5.map(([s,r,o])=>({name:s,ink:r,seen:o.clone().transformDirection(i.matrixWorldInverse)}));t.sort((s,r)=>s.seen.z-r.seen.z);let n=t.flatMap(({name:s,ink:r,seen:o})=>{let a=document.createElementNS(e,"line"),[l,c]=[(o.x*20).toFixed(1),(-o.y*20).toFixed(1)];Object.entries({x1:"0",y1:"0",x2:l,y2:c,stroke:r}).forEach(d=>a.setAttribute(...d));let h=document.createElementNS(e,"text"),[u,f]=[(o.x*28).toFixed(1),(-o.y*28).toFixed(1)];return Object.entries({x:u,y:f,fill:r}).forEach(d=>h.setAttribute(...d)),h.textContent=s,[a,h]});se("compass").replaceChildren(...n)}var Ic=1024,Yu=`
-/** Of each cell: 1 where faces cover it, twice the number of its hollows, 32 times the place of the first. */
 uniform highp usampler2D hollowed;
-/** The lower and the upper end of each hollow. */
 uniform highp sampler2D hollows;
 uniform bool hasHollows;
-/** The move that cut the hollows of each cell last. */
 uniform highp usampler2D hollowLast;
-
 bool isCovered(ivec2 own) {
-  return hasHollows && (texelFetch(hollowed, own, 0).r & 1u) == 1u;
+return hasHollows && (texelFetch(hollowed, own, 0).r & 1u) == 1u;
 }
-
 bool isHollow(ivec2 own, float height) {
-  uint packed = texelFetch(hollowed, own, 0).r;
-  int first = int(packed >> 5);
-  int count = int((packed >> 1) & 15u);
-  for (int n = first; n < first + count; n += 1) {
-    vec2 ends = texelFetch(hollows, ivec2(n % ${Ic}, n / ${Ic}), 0).rg;
-    if (height > ends.x && height < ends.y) return true;
-  }
-  return false;
+uint packed = texelFetch(hollowed, own, 0).r;
+int first = int(packed >> 5);
+int count = int((packed >> 1) & 15u);
+for (int n = first; n < first + count; n += 1) {
+vec2 ends = texelFetch(hollows, ivec2(n % ${Ic}, n / ${Ic}), 0).rg;
+if (height > ends.x && height < ends.y) return true;
+}
+return false;
 }
 `,tw=`
 flat in int side;
 bool isOutside(ivec2 own) {
-  return any(lessThan(own, ivec2(0))) || any(greaterThanEqual(own, cells));
+return any(lessThan(own, ivec2(0))) || any(greaterThanEqual(own, cells));
 }
 ivec2 makerCell(ivec2 own) {
-  return own + (side == 2 ? ivec2(0, -1) : side == 3 ? ivec2(1, 0) : side == 4 ? ivec2(0, 1) : side == 5 ? ivec2(-1, 0) : ivec2(0));
+return own + (side == 2 ? ivec2(0, -1) : side == 3 ? ivec2(1, 0) : side == 4 ? ivec2(0, 1) : side == 5 ? ivec2(-1, 0) : ivec2(0));
 }
 bool isBelow(ivec2 own, float height) {
-  return side == 1 || height < texelFetch(heights, own, 0).r - 0.001;
+return side == 1 || height < texelFetch(heights, own, 0).r - 0.001;
 }
 uint maker(ivec2 own, float height) {
-  if (isOutside(own)) return 0u;
-  return isBelow(own, height) ? texelFetch(hollowLast, own, 0).r : texelFetch(last, own, 0).r;
+if (isOutside(own)) return 0u;
+return isBelow(own, height) ? texelFetch(hollowLast, own, 0).r : texelFetch(last, own, 0).r;
 }
 `,o5=i=>`
 precision highp float;
@@ -4425,7 +4404,6 @@ precision highp int;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 ${i}
-/** The cell, the side and the length, the two heights. */
 in uvec4 own;
 out vec3 place;
 out vec2 at;
@@ -4433,55 +4411,47 @@ out vec3 face;
 out float border;
 flat out int isGone;
 flat out int side;
-
 void main() {
-  int corner = gl_VertexID < 3 ? gl_VertexID : gl_VertexID - 2;
-  vec2 part = vec2(corner & 1, corner >> 1);
-  side = int(own.y & 255u);
-  float row = float(own.y >> 8);
-  vec2 between = uintBitsToFloat(own.zw);
-  vec2 first = vec2(int(own.x) % cells.x, int(own.x) / cells.x);
-  // Up and down, front and back, right and left.
-  bool flat_ = side < 2;
-  bool goesY = side == 3 || side == 5;
-  vec2 within = flat_ ? vec2(part.x * row, part.y) : goesY ? vec2(side == 3 ? 1.0 : 0.0, part.x * row) : vec2(part.x * row, side == 4 ? 1.0 : 0.0);
-  float height = flat_ ? between.x : mix(between.x, between.y, part.y);
-  place = vec3(low + (first + within) * cell, height);
-  at = first - 0.5 + (flat_ ? within : goesY ? vec2(0.5, within.y) : vec2(within.x, 0.5));
-  face = side == 0 ? vec3(0.0, 0.0, 1.0) : vec3(0.0);
-  // Up is lit as the grid is.
-  border = side == 0 ? 0.0 : 1.0;
-  isGone = 0;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
+int corner = gl_VertexID < 3 ? gl_VertexID : gl_VertexID - 2;
+vec2 part = vec2(corner & 1, corner >> 1);
+side = int(own.y & 255u);
+float row = float(own.y >> 8);
+vec2 between = uintBitsToFloat(own.zw);
+vec2 first = vec2(int(own.x) % cells.x, int(own.x) / cells.x);
+bool flat_ = side < 2;
+bool goesY = side == 3 || side == 5;
+vec2 within = flat_ ? vec2(part.x * row, part.y) : goesY ? vec2(side == 3 ? 1.0 : 0.0, part.x * row) : vec2(part.x * row, side == 4 ? 1.0 : 0.0);
+float height = flat_ ? between.x : mix(between.x, between.y, part.y);
+place = vec3(low + (first + within) * cell, height);
+at = first - 0.5 + (flat_ ? within : goesY ? vec2(0.5, within.y) : vec2(within.x, 0.5));
+face = side == 0 ? vec3(0.0, 0.0, 1.0) : vec3(0.0);
+border = side == 0 ? 0.0 : 1.0;
+isGone = 0;
+gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }
 `,_g=class{drawn;pick;own={hollowed:{value:null},hollows:{value:null},hasHollows:{value:!1},hollowLast:{value:null},hollowTint:{value:null}};constructor(e,t,n,s){let r=o=>{let a=new ts({glslVersion:ws,vertexShader:o5(t),fragmentShader:o,defines:{FACES:1},uniforms:e,side:Pn,polygonOffset:!0,polygonOffsetFactor:1,polygonOffsetUnits:2}),l=new pn(new na,a);return l.frustumCulled=!1,l.visible=!1,l};Object.assign(e,this.own);for(let[o,a]of s2())this.put(o,a);this.drawn=r(n),this.pick=r(s)}lasts=new Uint32Array;get some(){return this.own.hasHollows.value}show({hollows:e,covered:t,faces:n},s){if(!t.length&&!this.some)return;this.own.hasHollows.value=t.length>0,this.lasts=new Uint32Array(t.length);let r=new na;if(r.setAttribute("own",new uo(n,4)),r.instanceCount=n.length/4,r.setDrawRange(0,6),this.drawn.geometry.dispose(),this.drawn.geometry=this.pick.geometry=r,!t.length){for(let[l,c]of s2())this.put(l,c);return}let o=Uint32Array.from(t),a=new Float32Array(2*Ic*Math.max(1,Math.ceil(e.count/Ic)));for(let l=0;l<e.count;l+=1){a.set([e.low(l),e.high(l)],2*l);let c=e.cell(l);this.lasts[c]=e.last(l);let h=o[c];h<2?o[c]=h+2+32*l:(h>>1&15)<15&&(o[c]=h+2)}this.put("hollowed",new Ri(o,...s,Fr,bi)),this.put("hollowLast",new Ri(this.lasts,...s,Fr,bi)),this.put("hollows",new Ri(a,Ic,a.length/2/Ic,hr,hi))}setTint(e,t){this.put("hollowTint",new Ri(e,...t,vo,Zn))}put(e,t){this.own[e].value?.dispose(),t.minFilter=t.magFilter=bn,t.unpackAlignment=1,t.needsUpdate=!0,this.own[e].value=t}setVisible(e){this.drawn.visible=this.pick.visible=e&&this.some}};function s2(){let i=()=>new Ri(new Uint32Array(1),1,1,Fr,bi);return[["hollowed",i()],["hollowLast",i()],["hollows",new Ri(new Float32Array(2),1,1,hr,hi)],["hollowTint",new Ri(new Uint8Array(1),1,1,vo,Zn)]]}var nw=new Float32Array;function o2(i,e){let t=new iw(i,e).triangles(),n=l2(i.points),s=new Uint32Array(t.length+n.length);return s.set(t),s.set(n,t.length),s}function a2(i){let[e,t]=i,n=l2(i),s=new Uint32Array((e-1)*(t-1)*6+n.length),r=0;for(let o=0;o+1<t;o+=1)for(let a=0;a+1<e;a+=1)r=ju(s,r,aa(i,a,o),1,e+4);return s.set(n,r),s}function aa([i],e,t){return(t+2)*(i+4)+e+2}function ju(i,e,t,n,s){return i[e]=t,i[e+1]=i[e+3]=t+n,i[e+2]=i[e+5]=t+s,i[e+4]=t+n+s,e+6}function l2(i){let[e,t]=i,n=e+4,s=new Uint32Array((e+t-2)*12),r=0;for(let o=0;o+1<e;o+=1)r=ju(s,r,aa(i,o,-1),1,-n),r=ju(s,r,aa(i,o,t),1,n);for(let o=0;o+1<t;o+=1)r=ju(s,r,aa(i,-1,o),n,-1),r=ju(s,r,aa(i,e,o),n,1);return s}var iw=class{constructor(e,t){this.grid=e;let[n,s]=e.points;[this.across,this.right,this.top]=[n,n-1,s-1],[this.perHeight,this.perSlope]=[1/t.height,1/t.slope];let r=c=>Math.ceil((c-1)/64)*64+1;[this.wide,this.high]=[r(n),r(s)];let[o,a]=[n*s,this.wide*this.high];nw.length<3*o+a&&(nw=new Float32Array(3*o+a));let l=(c,h)=>nw.subarray(c,c+h);[this.height,this.slopeX,this.slopeY]=[l(0,o),l(o,o),l(2*o,o)],this.error=l(3*o,a),this.sample()}grid;wide;high;height;slopeX;slopeY;error;across;right;top;perHeight;perSlope;index=new Uint32Array(3*4096);length=0;triangles(){for(let n=1;n<64;n*=2)this.sides(n),this.middles(n);let[e,t]=this.grid.points;for(let n=0;n<t-1;n+=64)for(let s=0;s<e-1;s+=64)this.halve(s,n,s+64,n+64,s+64,n),this.halve(s+64,n+64,s,n,s,n+64);return this.index.slice(0,this.length)}sample(){let{heights:e,cells:t,cell:n,bottom:s,stride:r,points:o}=this.grid,{height:a,slopeX:l,slopeY:c}=this,[h,u]=[t[0]-1,t[1]-1],f=2*r,d=1/(2*f*n),p=0;for(let m=0;m<o[1];m+=1){let g=Math.min(m*r,u),v=g*t[0],x=Math.max(g-f,0)*t[0],w=Math.min(g+f,u)*t[0];for(let b=0;b<o[0];b+=1){let M=Math.min(b*r,h),S=Math.max(e[v+Math.max(M-f,0)],s),y=Math.max(e[v+Math.min(M+f,h)],s),A=Math.max(e[x+M],s),I=Math.max(e[w+M],s);a[p]=e[v+M],l[p]=(S-y)*d,c[p]=(A-I)*d,p+=1}}}sides(e){let{wide:t,high:n,error:s}=this,r=e>>1;for(let o=0;o<n;o+=e){let a=o/e&1;for(let l=a?0:e;l<t;l+=2*e){let c=a?this.between(l,o-e,l,o+e,l,o):this.between(l-e,o,l+e,o,l,o),h=0;if(r){let[u,f,d,p]=[o>=r,o+r<n,l>=r,l+r<t];u&&d&&(h=Math.max(h,s[(o-r)*t+l-r])),u&&p&&(h=Math.max(h,s[(o-r)*t+l+r])),f&&d&&(h=Math.max(h,s[(o+r)*t+l-r])),f&&p&&(h=Math.max(h,s[(o+r)*t+l+r]))}s[o*t+l]=c+h}}}middles(e){let{wide:t,high:n,error:s}=this;for(let r=e;r<n;r+=2*e)for(let o=e;o<t;o+=2*e){let l=2*e<64&&((o-e)/(2*e)&1)!==((r-e)/(2*e)&1)?this.between(o-e,r+e,o+e,r-e,o,r):this.between(o-e,r-e,o+e,r+e,o,r),c=r*t+o,h=Math.max(s[c-e],s[c+e],s[c-e*t],s[c+e*t]);s[c]=l+h}}between(e,t,n,s,r,o){let{across:a,right:l,top:c,height:h,slopeX:u,slopeY:f}=this,d=Math.abs(e-n||t-s)/2;if(r+d>l||o+d>c){let A=r2(e,n,d,l),I=r2(t,s,d,c);if(A===2||I===2)return 0;if(A===1||I===1)return 1/0}let p=t*a+e,m=s*a+n,g=o*a+r,v=h[p],x=h[m],w=h[g];if(v<-1e20||x<-1e20||w<-1e20)return v<-1e20&&x<-1e20&&w<-1e20?0:1/0;let b=Math.abs(w-(v+x)/2);if((e===n?e===0||e===l:t===s&&(t===0||t===c))&&b>1e-5)return 1/0;let S=Math.abs(u[g]-(u[p]+u[m])/2),y=Math.abs(f[g]-(f[p]+f[m])/2);return Math.max(b*this.perHeight,(S>y?S:y)*this.perSlope)}halve(e,t,n,s,r,o){let[a,l]=this.grid.points;if(Math.min(e,n,r)>=a-1||Math.min(t,s,o)>=l-1)return;let[c,h]=[e+n>>1,t+s>>1];if(Math.abs(e-r)+Math.abs(t-o)>1&&this.error[h*this.wide+c]>1){this.halve(r,o,e,t,c,h),this.halve(n,s,r,o,c,h);return}if(this.length+3>this.index.length){let f=new Uint32Array(2*this.index.length);f.set(this.index),this.index=f}let{points:u}=this.grid;this.index[this.length++]=aa(u,e,t),this.index[this.length++]=aa(u,n,s),this.index[this.length++]=aa(u,r,o)}};function r2(i,e,t,n){let[s,r]=i===e?[i-t,i+t]:[Math.min(i,e),Math.max(i,e)];return s>=n?2:r<=n||i===e&&i===n?0:1}var el=`
 uniform ivec2 cells;
 uniform vec2 low;
 uniform float cell;
 uniform float bottom;
-/** Cells between two points. */
 uniform int stride;
 uniform ivec2 points;
 `,u2=`
 uniform vec3 sun;
 uniform vec3 eye;
-/** Metalness, roughness, brightness of the light; cells between two lines of a wireframe, 0 for none. */
 uniform vec4 look;
-
-/** How many times its own colour it shows, and its highlight where it was cut. */
 vec2 lightOf(vec3 face) {
-  vec3 normal = normalize(face);
-  if (dot(normal, eye) < 0.0) normal = -normal;
-  float lit = max(dot(normal, sun), 0.0);
-  // Metal returns its own colour in a highlight and little else; what is rough spreads it.
-  float metal = look.x;
-  float sharp = exp2(1.0 + 8.0 * (1.0 - look.y));
-  float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), sharp) * (1.0 - look.y) * mix(0.3, 1.1, metal);
-  float around = 0.5 + 0.5 * reflect(-eye, normal).z;
-  float side = 0.5 + 0.5 * normal.z;
-  float matt = 0.50 + 0.16 * side + 0.42 * lit * look.z;
-  float mirror = mix(0.35 + 0.45 * lit * look.z, 0.45 + 0.65 * around, 1.0 - look.y);
-  return vec2(mix(matt, mirror, metal * 0.8), shine * look.z);
+vec3 normal = normalize(face);
+if (dot(normal, eye) < 0.0) normal = -normal;
+float lit = max(dot(normal, sun), 0.0);
+float metal = look.x;
+float sharp = exp2(1.0 + 8.0 * (1.0 - look.y));
+float shine = pow(max(dot(reflect(-sun, normal), eye), 0.0), sharp) * (1.0 - look.y) * mix(0.3, 1.1, metal);
+float around = 0.5 + 0.5 * reflect(-eye, normal).z;
+float side = 0.5 + 0.5 * normal.z;
+float matt = 0.50 + 0.16 * side + 0.42 * lit * look.z;
+float mirror = mix(0.35 + 0.45 * lit * look.z, 0.45 + 0.65 * around, 1.0 - look.y);
+return vec2(mix(matt, mirror, metal * 0.8), shine * look.z);
 }
 `,a5=`
 precision highp float;
@@ -4494,34 +4464,28 @@ ${el}
 ${u2}
 out vec3 place;
 out vec2 at;
-/** Light at the point: a device without graphics takes long for what is done at each pixel. */
 out vec2 light;
 flat out int isGone;
-
 float heightAt(ivec2 own) {
-  return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
+return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
 }
-
 void main() {
-  // Two rings around the cells are the walls: one at the height of its cells, and one on the floor.
-  int across = points.x + 4;
-  ivec2 own = ivec2(gl_VertexID % across, gl_VertexID / across) - 2;
-  ivec2 point = clamp(own, ivec2(0), points - 1);
-  ivec2 outward = own - point;
-  ivec2 inside = min(point * stride, cells - 1);
-  float height = texelFetch(heights, inside, 0).r;
-  isGone = int(height < -1e20);
-  bool floor_ = any(greaterThan(abs(outward), ivec2(1)));
-  place = vec3(low + (vec2(inside) + 0.5) * cell, floor_ || isGone == 1 ? bottom : height);
-  // The outer half of a cell at the border belongs to the part.
-  place.xy += (vec2(greaterThanEqual(own, points - 1)) - vec2(lessThanEqual(own, ivec2(0)))) * 0.5 * cell;
-  at = vec2(inside);
-  // Over two points to each side, so that the steps of a wall between cells are not seen.
-  int reach = 2 * stride;
-  float x = heightAt(inside - ivec2(reach, 0)) - heightAt(inside + ivec2(reach, 0));
-  float y = heightAt(inside - ivec2(0, reach)) - heightAt(inside + ivec2(0, reach));
-  light = lightOf(outward == ivec2(0) ? vec3(x, y, 2.0 * float(reach) * cell) : vec3(outward, 0.0));
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
+int across = points.x + 4;
+ivec2 own = ivec2(gl_VertexID % across, gl_VertexID / across) - 2;
+ivec2 point = clamp(own, ivec2(0), points - 1);
+ivec2 outward = own - point;
+ivec2 inside = min(point * stride, cells - 1);
+float height = texelFetch(heights, inside, 0).r;
+isGone = int(height < -1e20);
+bool floor_ = any(greaterThan(abs(outward), ivec2(1)));
+place = vec3(low + (vec2(inside) + 0.5) * cell, floor_ || isGone == 1 ? bottom : height);
+place.xy += (vec2(greaterThanEqual(own, points - 1)) - vec2(lessThanEqual(own, ivec2(0)))) * 0.5 * cell;
+at = vec2(inside);
+int reach = 2 * stride;
+float x = heightAt(inside - ivec2(reach, 0)) - heightAt(inside + ivec2(reach, 0));
+float y = heightAt(inside - ivec2(0, reach)) - heightAt(inside + ivec2(0, reach));
+light = lightOf(outward == ivec2(0) ? vec3(x, y, 2.0 * float(reach) * cell) : vec3(outward, 0.0));
+gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }
 `,c2=`
 precision highp float;
@@ -4537,7 +4501,6 @@ uniform vec2 range;
 uniform vec2 marked;
 uniform vec3 mark;
 uniform vec4 section;
-/** Pixels of the picture in one of the page. */
 uniform float ratio;
 ${u2}
 ${fg}
@@ -4547,7 +4510,7 @@ uniform sampler2D hollowTint;
 uniform sampler2D heights;
 ${el}
 float heightAt(ivec2 own) {
-  return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
+return max(texelFetch(heights, clamp(own, ivec2(0), cells - 1), 0).r, bottom);
 }
 ${tw}
 in vec3 face;
@@ -4559,57 +4522,54 @@ in vec3 place;
 in vec2 at;
 flat in int isGone;
 out vec4 ink;
-
 void main() {
-  if (isGone == 1) discard;
+if (isGone == 1) discard;
 #ifdef SECTION
-  if (dot(section.xyz, place) > section.w) discard;
+if (dot(section.xyz, place) > section.w) discard;
 #endif
 #ifdef WIRE
-  vec2 net = at / look.w;
-  vec2 off = abs(fract(net + 0.5) - 0.5) / max(fwidth(net), vec2(1e-5));
-  if (min(off.x, off.y) > 0.7 * ratio) discard;
+vec2 net = at / look.w;
+vec2 off = abs(fract(net + 0.5) - 0.5) / max(fwidth(net), vec2(1e-5));
+if (min(off.x, off.y) > 0.7 * ratio) discard;
 #endif
-  ivec2 own_cell = ivec2(at + 0.5);
+ivec2 own_cell = ivec2(at + 0.5);
 #ifdef FACES
-  vec3 looks = border > 0.001 ? cross(dFdx(place), dFdy(place)) : face;
-  if (border < 0.001 && place.z > heightAt(own_cell) - 0.001) {
-    // As the grid has it.
-    float x = heightAt(own_cell - ivec2(2, 0)) - heightAt(own_cell + ivec2(2, 0));
-    float y = heightAt(own_cell - ivec2(0, 2)) - heightAt(own_cell + ivec2(0, 2));
-    looks = vec3(x, y, 4.0 * cell);
-  }
-  vec2 light = lightOf(looks);
-  ivec2 made = makerCell(own_cell);
-  uint move = maker(made, place.z);
-  float value = 0.0;
-  if (!isOutside(made)) value = (isBelow(made, place.z) ? texelFetch(hollowTint, made, 0) : texelFetch(tint, made, 0)).r;
+vec3 looks = border > 0.001 ? cross(dFdx(place), dFdy(place)) : face;
+if (border < 0.001 && place.z > heightAt(own_cell) - 0.001) {
+float x = heightAt(own_cell - ivec2(2, 0)) - heightAt(own_cell + ivec2(2, 0));
+float y = heightAt(own_cell - ivec2(0, 2)) - heightAt(own_cell + ivec2(0, 2));
+looks = vec3(x, y, 4.0 * cell);
+}
+vec2 light = lightOf(looks);
+ivec2 made = makerCell(own_cell);
+uint move = maker(made, place.z);
+float value = 0.0;
+if (!isOutside(made)) value = (isBelow(made, place.z) ? texelFetch(hollowTint, made, 0) : texelFetch(tint, made, 0)).r;
 #else
 #ifdef HOLLOWS
-  // A hair less than is covered, so that no gap is seen between them.
-  if (isCovered(ivec2(at + 0.44)) && isCovered(ivec2(at + 0.56))) discard;
+if (isCovered(ivec2(at + 0.44)) && isCovered(ivec2(at + 0.56))) discard;
 #endif
-  uint move = texelFetch(last, own_cell, 0).r;
+uint move = texelFetch(last, own_cell, 0).r;
 #if COLOURING == 1 || COLOURING == 2
-  float value = texelFetch(tint, own_cell, 0).r;
+float value = texelFetch(tint, own_cell, 0).r;
 #endif
 #endif
-  bool touched = move > 0u;
+bool touched = move > 0u;
 #if COLOURING == 0
-  vec3 own = touched ? cut : raw;
+vec3 own = touched ? cut : raw;
 #else
 #if COLOURING == 1
-  vec3 tone = mix(cut, tools[int(value * 255.0 + 0.5) & 7], 0.7);
+vec3 tone = mix(cut, tools[int(value * 255.0 + 0.5) & 7], 0.7);
 #elif COLOURING == 2
-  vec3 tone = mix(cut, scale(value), 0.8);
+vec3 tone = mix(cut, scale(value), 0.8);
 #else
-  vec3 tone = mix(cut, scale((place.z - range.x) / max(range.y - range.x, 1e-6)), 0.8);
+vec3 tone = mix(cut, scale((place.z - range.x) / max(range.y - range.x, 1e-6)), 0.8);
 #endif
-  vec3 own = touched ? tone : raw;
+vec3 own = touched ? tone : raw;
 #endif
-  if (float(move) >= marked.x && float(move) <= marked.y) own = mix(own, mark, 0.65);
-  float shine = touched ? light.y : 0.0;
-  ink = vec4(own * light.x + mix(vec3(1.0), own, look.x) * shine, 1.0);
+if (float(move) >= marked.x && float(move) <= marked.y) own = mix(own, mark, 0.65);
+float shine = touched ? light.y : 0.0;
+ink = vec4(own * light.x + mix(vec3(1.0), own, look.x) * shine, 1.0);
 }
 `,h2=`
 precision highp float;
@@ -4629,14 +4589,14 @@ in vec2 at;
 flat in int isGone;
 out vec4 ink;
 void main() {
-  if (isGone == 1 || dot(section.xyz, place) > section.w) discard;
+if (isGone == 1 || dot(section.xyz, place) > section.w) discard;
 #ifdef FACES
-  int id = int(maker(makerCell(ivec2(at + 0.5)), place.z));
+int id = int(maker(makerCell(ivec2(at + 0.5)), place.z));
 #else
-  if (isCovered(ivec2(at + 0.5))) discard;
-  int id = int(texelFetch(last, ivec2(at + 0.5), 0).r);
+if (isCovered(ivec2(at + 0.5))) discard;
+int id = int(texelFetch(last, ivec2(at + 0.5), 0).r);
 #endif
-  ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 128.0) / 255.0;
+ink = vec4(float(id & 255), float((id >> 8) & 255), float((id >> 16) & 255), 128.0) / 255.0;
 }
 `,l5=[["heights",Float32Array,vo,hi],["last",Uint32Array,Fr,bi],["tint",Uint8Array,vo,Zn]],c5=700,[sw,rw]=[4,2],[h5,u5]=[1.5,4],[f5,d5]=[.5,.04],Mg=class{drawn;pick;uniforms={heights:{value:null},last:{value:null},tint:{value:null},scales:{value:[0,1,2,3].map(()=>new Ze)},section:{value:new Lt(0,0,0,1)},look:{value:new Lt(0,.6,1,0)},ratio:{value:1},range:{value:new Xe(0,1)},cells:{value:new Xe},low:{value:new Xe},cell:{value:1},stride:{value:1},points:{value:new Xe},bottom:{value:0},raw:{value:new Ze},cut:{value:new Ze},tools:{value:Array.from({length:8},()=>new Ze)},marked:{value:new Xe(-1,-1)},mark:{value:new Ze},sun:{value:[-.33,-.52,.79]},eye:{value:[0,0,1]}};faces=new _g(this.uniforms,el,c2,h2);cells=[0,0];colouring=0;compiled="";finest=1;made;constructor(){let e=t=>{let{uniforms:n}=this,s=new ts({glslVersion:ws,vertexShader:a5,fragmentShader:t,defines:{},uniforms:n,side:Pn,polygonOffset:!0,polygonOffsetFactor:1,polygonOffsetUnits:2}),r=new pn(new Rn,s);return r.frustumCulled=!1,r.visible=!1,r};this.drawn=e(c2),this.pick=e(h2)}open(e,t){if(this.drawn.visible=this.pick.visible=e!==void 0,this.faces.setVisible(!1),!e)return;let{cells:n,cell:s,low:r}=e.raw;if(this.uniforms.cells.value.set(...n),this.uniforms.low.value.set(r[0],r[1]),this.uniforms.cell.value=s,this.uniforms.bottom.value=r[2],this.cells[0]===n[0]&&this.cells[1]===n[1])return;t&&Math.max(...n)>c5&&(this.finest=sw),this.cells=n;let[o,a]=n;for(let[l,c,h,u]of l5){this.uniforms[l].value?.dispose();let f=new Ri(new c(o*a),o,a,h,u);f.minFilter=f.magFilter=bn,f.unpackAlignment=l==="tint"?1:4,f.needsUpdate=!0,this.uniforms[l].value=f}this.setStride(this.stride)}get stride(){return this.finest}coarser(e){let t=2*this.stride;return t>sw&&t*e>rw?!1:(this.setStride(t),!0)}finer(){return this.stride===1?!1:(this.setStride(this.stride/2),!0)}setStride(e){this.finest=e,this.made=void 0}prepare(e,t){let{cell:n,bottom:s,heights:r,stride:o}=this.uniforms;if(!r.value)return;for(;this.finest>sw&&this.finest*n.value>2*rw*e;)this.finer();let l=t==="least"&&this.finest>1&&2*this.finest*n.value<2*rw*e?2*this.finest:this.finest,[c,h]=[this.made,o.value===l];if((t==="all"?c===0:c&&e>c/h5&&e<c*u5)&&h)return;this.made=t==="all"?0:e,o.value=l,this.uniforms.points.value.set(...this.cells.map(m=>Math.ceil((m-1)/l)+1));let f=this.uniforms.points.value.toArray(),d={heights:r.value.image.data,cells:this.cells,cell:n.value,bottom:s.value,stride:l,points:f},p=new yi(t==="all"?a2(f):o2(d,{height:f5*e,slope:d5}),1);for(let m of[this.drawn,this.pick])m.geometry.dispose(),m.geometry=new Rn,m.geometry.setIndex(p)}show(e){for(let[t,n]of[["heights",e.heights],["last",e.last]]){let s=this.uniforms[t].value;if(!s||n.length!==this.cells[0]*this.cells[1])return;s.image.data=n,s.needsUpdate=!0}this.made!==0&&(this.made=void 0),this.faces.show(e,this.cells),this.faces.setVisible(this.drawn.visible)}setTint(e,t){this.faces.some&&this.faces.setTint(t,this.cells);let n=this.uniforms.tint.value;!n||e.length!==this.cells[0]*this.cells[1]||(n.image.data=e,n.needsUpdate=!0)}setVisible(e){this.drawn.visible=this.pick.visible=e&&this.cells[0]>0,this.faces.setVisible(this.drawn.visible)}setMarked(e,t){this.uniforms.marked.value.set(e,t)}setColouring(e,t=0,n=1){this.colouring=e,this.uniforms.range.value.set(t,n)}compile(){let{look:e,section:t}=this.uniforms,n={WIRE:e.value.w>0,SECTION:t.value.toArray().slice(0,3).some(Boolean),HOLLOWS:this.faces.some},s={COLOURING:this.colouring,...Object.fromEntries(Object.entries(n).filter(([,o])=>o).map(([o])=>[o,1]))},r=JSON.stringify(s);if(r!==this.compiled){this.compiled=r;for(let{material:o}of[this.drawn,this.faces.drawn])Object.keys(n).forEach(a=>delete o.defines[a]),Object.assign(o.defines,s),o.needsUpdate=!0}}setEye(e,t,n){this.uniforms.eye.value=[e,t,n]}setInks(e){this.uniforms.raw.value=e("--part-raw"),this.uniforms.cut.value=e("--part-cut"),this.uniforms.mark.value=e("--c-move-marked"),this.uniforms.scales.value=[0,1,2,3].map(t=>e(`--scale-${t}`)),this.uniforms.tools.value=Array.from({length:8},(t,n)=>e(`--c-tool-${n}`))}};var p5=`
 precision highp float;
@@ -4645,20 +4605,18 @@ uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
 ${el}
 uniform float top;
-/** Number of the axis, and where the plane is. */
 uniform int axis;
 uniform float plane;
 out vec3 place;
-
 void main() {
-  int corner = gl_VertexID < 3 ? gl_VertexID : gl_VertexID - 2;
-  vec2 side = vec2(corner & 1, corner >> 1);
-  vec3 least = vec3(low, bottom);
-  vec3 size = vec3(vec2(cells) * cell, top - bottom);
-  vec3 share = axis == 0 ? vec3(0.0, side) : axis == 1 ? vec3(side.x, 0.0, side.y) : vec3(side, 0.0);
-  place = least + share * size;
-  place[axis] = plane;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
+int corner = gl_VertexID < 3 ? gl_VertexID : gl_VertexID - 2;
+vec2 side = vec2(corner & 1, corner >> 1);
+vec3 least = vec3(low, bottom);
+vec3 size = vec3(vec2(cells) * cell, top - bottom);
+vec3 share = axis == 0 ? vec3(0.0, side) : axis == 1 ? vec3(side.x, 0.0, side.y) : vec3(side, 0.0);
+place = least + share * size;
+place[axis] = plane;
+gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }
 `,m5=`
 precision highp float;
@@ -4672,70 +4630,61 @@ uniform vec3 hatch;
 uniform float ratio;
 in vec3 place;
 out vec4 ink;
-
-/** Height of what is drawn; far below where there is nothing, as in a hollow at a height. */
 float surface(vec2 at, float height) {
-  vec2 grid = clamp((at - low) / cell - 0.5, vec2(0.0), vec2(cells - 1));
-  ivec2 own = ivec2(grid + 0.5);
-  if (isCovered(own)) return isHollow(own, height) ? -1e30 : texelFetch(heights, own, 0).r;
-  ivec2 point = clamp(ivec2(grid / float(stride)), ivec2(0), max(points - 2, ivec2(0)));
-  ivec2 first = min(point * stride, cells - 1);
-  ivec2 second = min((point + 1) * stride, cells - 1);
-  vec2 part = (grid - vec2(first)) / max(vec2(second - first), vec2(1.0));
-  float a = texelFetch(heights, first, 0).r;
-  float b = texelFetch(heights, ivec2(second.x, first.y), 0).r;
-  float c = texelFetch(heights, ivec2(first.x, second.y), 0).r;
-  float d = texelFetch(heights, second, 0).r;
-  // A triangle is gone where its last corner is.
-  if (c < -1e20) return -1e30;
-  a = max(a, bottom);
-  b = max(b, bottom);
-  d = max(d, bottom);
-  return part.x + part.y <= 1.0 ? a + (b - a) * part.x + (c - a) * part.y : d + (c - d) * (1.0 - part.x) + (b - d) * (1.0 - part.y);
+vec2 grid = clamp((at - low) / cell - 0.5, vec2(0.0), vec2(cells - 1));
+ivec2 own = ivec2(grid + 0.5);
+if (isCovered(own)) return isHollow(own, height) ? -1e30 : texelFetch(heights, own, 0).r;
+ivec2 point = clamp(ivec2(grid / float(stride)), ivec2(0), max(points - 2, ivec2(0)));
+ivec2 first = min(point * stride, cells - 1);
+ivec2 second = min((point + 1) * stride, cells - 1);
+vec2 part = (grid - vec2(first)) / max(vec2(second - first), vec2(1.0));
+float a = texelFetch(heights, first, 0).r;
+float b = texelFetch(heights, ivec2(second.x, first.y), 0).r;
+float c = texelFetch(heights, ivec2(first.x, second.y), 0).r;
+float d = texelFetch(heights, second, 0).r;
+if (c < -1e20) return -1e30;
+a = max(a, bottom);
+b = max(b, bottom);
+d = max(d, bottom);
+return part.x + part.y <= 1.0 ? a + (b - a) * part.x + (c - a) * part.y : d + (c - d) * (1.0 - part.x) + (b - d) * (1.0 - part.y);
 }
-
 void main() {
-  if (surface(place.xy, place.z) < place.z) discard;
-  bool line = mod((gl_FragCoord.x + gl_FragCoord.y) / ratio, 9.0) < 1.2;
-  ink = vec4(line ? hatch : face, 1.0);
+if (surface(place.xy, place.z) < place.z) discard;
+bool line = mod((gl_FragCoord.x + gl_FragCoord.y) / ratio, 9.0) < 1.2;
+ink = vec4(line ? hatch : face, 1.0);
 }
 `,Ag=class{drawn;own={top:{value:0},axis:{value:0},plane:{value:0},face:{value:new Ze},hatch:{value:new Ze}};constructor(e){let t=new Rn;t.setDrawRange(0,6);let n=Object.assign(this.own,e),s=new ts({glslVersion:ws,vertexShader:p5,fragmentShader:m5,uniforms:n,side:Pn});this.drawn=new pn(t,s),this.drawn.frustumCulled=!1,this.drawn.visible=!1}show(e,t){this.drawn.visible=e!==void 0&&t!==void 0,!(!e||!t)&&(this.own.axis.value=e.axis,this.own.plane.value=e.at,this.own.top.value=t.raw.high[2])}setInks(e){this.own.face.value=e("--part-face"),this.own.hatch.value=e("--part-hatch")}};function Tg(i){if(!i)return new Lt(0,0,0,1);let e=i.below?-1:1,t=new Lt(0,0,0,i.at*e);return t.setComponent(i.axis,e),t}function f2({axis:i,at:e},{raw:t},{heights:n,hollows:s}){let[r,o]=t.cells,a=t.low[2],l=0;if(i===2){if(e<a)return 0;for(let d=0;d<n.length;d+=1)l+=+(n[d]>=e);for(let d=0;d<s.count;d+=1)l-=+(s.low(d)<e&&s.high(d)>e);return l*t.cell*t.cell}let c=Math.floor((e-t.low[i])/t.cell);if(c<0||c>=(i===0?r:o))return 0;let[h,u,f]=i===0?[c,r,o]:[c*r,1,r];for(let d=0;d<f;d+=1){let p=h+d*u;l+=Math.max(0,n[p]-a)-s.above(p,a)}return l*t.cell}var g5=["X","Y","Z"],Eg=class{constructor(e,t){this.changed=e;this.fromBelow=t;this.buttons=g5.map((n,s)=>{let r=R("button",{class:"chip","aria-label":`${X("sectionAcross")} ${n}`},n);return r.addEventListener("click",()=>this.across(s)),r});for(let n of[this.slider,this.number])n.addEventListener("input",()=>Number.isFinite(n.valueAsNumber)&&this.put(n.valueAsNumber,n));this.side.addEventListener("click",()=>{this.section.below=!this.section.below,this.show()}),kc("section","section",()=>this.show(),R("div",{class:"row",role:"group","aria-label":X("sectionAcross")},...this.buttons,this.side),Lc(X("sectionAt"),this.number,"mm"),this.slider,R("p",{class:"row dim"},X("sectionArea"),this.area))}changed;fromBelow;section={axis:1,at:0,below:!0};cut;part;placed=!1;buttons;slider=R("input",{type:"range","aria-label":X("sectionAt")});number=R("input",{type:"number",step:"any","aria-label":`${X("sectionAt")} mm`});side=R("button",{class:"chip","aria-pressed":"false"},X("sectionSide"));area=R("output",{id:"section-area"});setCut(e){this.cut=e,this.placed||this.middle(),this.show()}setPart(e){this.part=e,this.tell()}toggle(e){let t=oa("section")&&this.section.axis===e;t||this.across(e),jC("section",!t)}move(e){oa("section")&&this.cut&&this.put(this.section.at+e*this.cut.raw.cell)}across(e){this.section.axis=e,this.section.below=this.fromBelow(e),this.middle(),this.show()}middle(){let{low:e,high:t}=this.cut?.raw??{},{axis:n}=this.section;e&&t&&(this.section.at=(e[n]+t[n])/2)}put(e,t){let{low:n,high:s}=this.cut?.raw??{low:[0,0,0],high:[0,0,0]},{axis:r}=this.section;this.section.at=Math.min(s[r],Math.max(n[r],e)),this.placed=!0,this.show(t)}show(e){let{axis:t,at:n,below:s}=this.section;this.buttons.forEach((o,a)=>o.setAttribute("aria-pressed",String(a===t))),this.side.setAttribute("aria-pressed",String(!s));let{raw:r}=this.cut??{};r&&([this.slider.min,this.slider.max,this.slider.step]=[r.low[t],r.high[t],r.cell/2].map(String)),e!==this.slider&&(this.slider.value=String(n)),e!==this.number&&(this.number.value=String(Number(n.toFixed(3)))),this.changed(oa("section")?{...this.section}:void 0),this.tell()}tell(){let{cut:e,part:t}=this,n=e&&t&&oa("section")?f2(this.section,e,t):void 0;this.area.textContent=n===void 0?"–":`${Et(n,1)} mm²`,se("canvas").dataset.section=n===void 0?"":n.toFixed(2)}};var d2={type:"change"},aw={type:"start"},m2={type:"end"},Cg=new qa,p2=new gs,v5=Math.cos(70*Rb.DEG2RAD),Qn=new Y,ns=2*Math.PI,Vt={NONE:-1,ROTATE:0,DOLLY:1,PAN:2,TOUCH_ROTATE:3,TOUCH_PAN:4,TOUCH_DOLLY_PAN:5,TOUCH_DOLLY_ROTATE:6},ow=1e-6,Rg=class extends Ru{constructor(e,t=null){super(e,t),this.state=Vt.NONE,this.target=new Y,this.cursor=new Y,this.minDistance=0,this.maxDistance=1/0,this.minZoom=0,this.maxZoom=1/0,this.minTargetRadius=0,this.maxTargetRadius=1/0,this.minPolarAngle=0,this.maxPolarAngle=Math.PI,this.minAzimuthAngle=-1/0,this.maxAzimuthAngle=1/0,this.enableDamping=!1,this.dampingFactor=.05,this.enableZoom=!0,this.zoomSpeed=1,this.enableRotate=!0,this.rotateSpeed=1,this.keyRotateSpeed=1,this.enablePan=!0,this.panSpeed=1,this.screenSpacePanning=!0,this.keyPanSpeed=7,this.zoomToCursor=!1,this.autoRotate=!1,this.autoRotateSpeed=2,this.keys={LEFT:"ArrowLeft",UP:"ArrowUp",RIGHT:"ArrowRight",BOTTOM:"ArrowDown"},this.mouseButtons={LEFT:ia.ROTATE,MIDDLE:ia.DOLLY,RIGHT:ia.PAN},this.touches={ONE:sa.ROTATE,TWO:sa.DOLLY_PAN},this.target0=this.target.clone(),this.position0=this.object.position.clone(),this.zoom0=this.object.zoom,this._cursorStyle="auto",this._domElementKeyEvents=null,this._lastPosition=new Y,this._lastQuaternion=new ys,this._lastTargetPosition=new Y,this._quat=new ys().setFromUnitVectors(e.up,new Y(0,1,0)),this._quatInverse=this._quat.clone().invert(),this._spherical=new _c,this._sphericalDelta=new _c,this._scale=1,this._panOffset=new Y,this._rotateStart=new Xe,this._rotateEnd=new Xe,this._rotateDelta=new Xe,this._panStart=new Xe,this._panEnd=new Xe,this._panDelta=new Xe,this._dollyStart=new Xe,this._dollyEnd=new Xe,this._dollyDelta=new Xe,this._dollyDirection=new Y,this._mouse=new Xe,this._performCursorZoom=!1,this._pointers=[],this._pointerPositions={},this._controlActive=!1,this._onPointerMove=x5.bind(this),this._onPointerDown=y5.bind(this),this._onPointerUp=b5.bind(this),this._onContextMenu=E5.bind(this),this._onMouseWheel=_5.bind(this),this._onKeyDown=M5.bind(this),this._onTouchStart=A5.bind(this),this._onTouchMove=T5.bind(this),this._onMouseDown=w5.bind(this),this._onMouseMove=S5.bind(this),this._interceptControlDown=C5.bind(this),this._interceptControlUp=R5.bind(this),this.domElement!==null&&this.connect(this.domElement),this.update()}set cursorStyle(e){this._cursorStyle=e,e==="grab"?this.domElement.style.cursor="grab":this.domElement.style.cursor="auto"}get cursorStyle(){return this._cursorStyle}connect(e){super.connect(e),this.domElement.addEventListener("pointerdown",this._onPointerDown),this.domElement.addEventListener("pointercancel",this._onPointerUp),this.domElement.addEventListener("contextmenu",this._onContextMenu),this.domElement.addEventListener("wheel",this._onMouseWheel,{passive:!1}),this.domElement.ownerDocument.addEventListener("keydown",this._interceptControlDown,{passive:!0,capture:!0}),this.domElement.style.touchAction="none"}disconnect(){this.state=Vt.NONE,this.domElement.removeEventListener("pointerdown",this._onPointerDown),this.domElement.ownerDocument.removeEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.removeEventListener("pointerup",this._onPointerUp),this.domElement.removeEventListener("pointercancel",this._onPointerUp),this.domElement.removeEventListener("wheel",this._onMouseWheel),this.domElement.removeEventListener("contextmenu",this._onContextMenu),this.stopListenToKeyEvents(),this.domElement.ownerDocument.removeEventListener("keydown",this._interceptControlDown,{capture:!0}),this.domElement.ownerDocument.removeEventListener("keyup",this._interceptControlUp,{capture:!0}),this._controlActive=!1,this._pointers.length=0,this._pointerPositions={},this.domElement.style.touchAction="",this.domElement.style.cursor="auto"}dispose(){this.disconnect()}getPolarAngle(){return this._spherical.phi}getAzimuthalAngle(){return this._spherical.theta}getDistance(){return this.object.position.distanceTo(this.target)}listenToKeyEvents(e){e.addEventListener("keydown",this._onKeyDown),this._domElementKeyEvents=e}stopListenToKeyEvents(){this._domElementKeyEvents!==null&&(this._domElementKeyEvents.removeEventListener("keydown",this._onKeyDown),this._domElementKeyEvents=null)}saveState(){this.target0.copy(this.target),this.position0.copy(this.object.position),this.zoom0=this.object.zoom}reset(){this.target.copy(this.target0),this.object.position.copy(this.position0),this.object.zoom=this.zoom0,this.object.updateProjectionMatrix(),this.dispatchEvent(d2),this.update(),this.state=Vt.NONE}pan(e,t){this._pan(e,t),this.update()}dollyIn(e){this._dollyIn(e),this.update()}dollyOut(e){this._dollyOut(e),this.update()}rotateLeft(e){this._rotateLeft(e),this.update()}rotateUp(e){this._rotateUp(e),this.update()}update(e=null){let t=this.object.position;Qn.copy(t).sub(this.target),Qn.applyQuaternion(this._quat),this._spherical.setFromVector3(Qn),this.autoRotate&&this.state===Vt.NONE&&this._rotateLeft(this._getAutoRotationAngle(e)),this.enableDamping?(this._spherical.theta+=this._sphericalDelta.theta*this.dampingFactor,this._spherical.phi+=this._sphericalDelta.phi*this.dampingFactor):(this._spherical.theta+=this._sphericalDelta.theta,this._spherical.phi+=this._sphericalDelta.phi);let n=this.minAzimuthAngle,s=this.maxAzimuthAngle;isFinite(n)&&isFinite(s)&&(n<-Math.PI?n+=ns:n>Math.PI&&(n-=ns),s<-Math.PI?s+=ns:s>Math.PI&&(s-=ns),n<=s?this._spherical.theta=Math.max(n,Math.min(s,this._spherical.theta)):this._spherical.theta=this._spherical.theta>(n+s)/2?Math.max(n,this._spherical.theta):Math.min(s,this._spherical.theta)),this._spherical.phi=Math.max(this.minPolarAngle,Math.min(this.maxPolarAngle,this._spherical.phi)),this._spherical.makeSafe(),this.enableDamping===!0?this.target.addScaledVector(this._panOffset,this.dampingFactor):this.target.add(this._panOffset),this.target.sub(this.cursor),this.target.clampLength(this.minTargetRadius,this.maxTargetRadius),this.target.add(this.cursor);let r=!1;if(this.zoomToCursor&&this._performCursorZoom||this.object.isOrthographicCamera)this._spherical.radius=this._clampDistance(this._spherical.radius);else{let o=this._spherical.radius;this._spherical.radius=this._clampDistance(this._spherical.radius*this._scale),r=o!=this._spherical.radius}if(Qn.setFromSpherical(this._spherical),Qn.applyQuaternion(this._quatInverse),t.copy(this.target).add(Qn),this.object.lookAt(this.target),this.enableDamping===!0?(this._sphericalDelta.theta*=1-this.dampingFactor,this._sphericalDelta.phi*=1-this.dampingFactor,this._panOffset.multiplyScalar(1-this.dampingFactor)):(this._sphericalDelta.set(0,0,0),this._panOffset.set(0,0,0)),this.zoomToCursor&&this._performCursorZoom){let o=null;if(this.object.isPerspectiveCamera){let a=Qn.length();o=this._clampDistance(a*this._scale);let l=a-o;this.object.position.addScaledVector(this._dollyDirection,l),this.object.updateMatrixWorld(),r=!!l}else if(this.object.isOrthographicCamera){let a=new Y(this._mouse.x,this._mouse.y,0);a.unproject(this.object);let l=this.object.zoom;this.object.zoom=Math.max(this.minZoom,Math.min(this.maxZoom,this.object.zoom/this._scale)),this.object.updateProjectionMatrix(),r=l!==this.object.zoom;let c=new Y(this._mouse.x,this._mouse.y,0);c.unproject(this.object),this.object.position.sub(c).add(a),this.object.updateMatrixWorld(),o=Qn.length()}else console.warn("WARNING: OrbitControls.js encountered an unknown camera type - zoom to cursor disabled."),this.zoomToCursor=!1;o!==null&&(this.screenSpacePanning?this.target.set(0,0,-1).transformDirection(this.object.matrix).multiplyScalar(o).add(this.object.position):(Cg.origin.copy(this.object.position),Cg.direction.set(0,0,-1).transformDirection(this.object.matrix),Math.abs(this.object.up.dot(Cg.direction))<v5?this.object.lookAt(this.target):(p2.setFromNormalAndCoplanarPoint(this.object.up,this.target),Cg.intersectPlane(p2,this.target))))}else if(this.object.isOrthographicCamera){let o=this.object.zoom;this.object.zoom=Math.max(this.minZoom,Math.min(this.maxZoom,this.object.zoom/this._scale)),o!==this.object.zoom&&(this.object.updateProjectionMatrix(),r=!0)}return this._scale=1,this._performCursorZoom=!1,r||this._lastPosition.distanceToSquared(this.object.position)>ow||8*(1-this._lastQuaternion.dot(this.object.quaternion))>ow||this._lastTargetPosition.distanceToSquared(this.target)>ow?(this.dispatchEvent(d2),this._lastPosition.copy(this.object.position),this._lastQuaternion.copy(this.object.quaternion),this._lastTargetPosition.copy(this.target),!0):!1}_getAutoRotationAngle(e){return e!==null?ns/60*this.autoRotateSpeed*e:ns/60/60*this.autoRotateSpeed}_getZoomScale(e){let t=Math.abs(e*.01);return Math.pow(.95,this.zoomSpeed*t)}_rotateLeft(e){this._sphericalDelta.theta-=e}_rotateUp(e){this._sphericalDelta.phi-=e}_panLeft(e,t){Qn.setFromMatrixColumn(t,0),Qn.multiplyScalar(-e),this._panOffset.add(Qn)}_panUp(e,t){this.screenSpacePanning===!0?Qn.setFromMatrixColumn(t,1):(Qn.setFromMatrixColumn(t,0),Qn.crossVectors(this.object.up,Qn)),Qn.multiplyScalar(e),this._panOffset.add(Qn)}_pan(e,t){let n=this.domElement;if(this.object.isPerspectiveCamera){let s=this.object.position;Qn.copy(s).sub(this.target);let r=Qn.length();r*=Math.tan(this.object.fov/2*Math.PI/180),this._panLeft(2*e*r/n.clientHeight,this.object.matrix),this._panUp(2*t*r/n.clientHeight,this.object.matrix)}else this.object.isOrthographicCamera?(this._panLeft(e*(this.object.right-this.object.left)/this.object.zoom/n.clientWidth,this.object.matrix),this._panUp(t*(this.object.top-this.object.bottom)/this.object.zoom/n.clientHeight,this.object.matrix)):(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - pan disabled."),this.enablePan=!1)}_dollyOut(e){this.object.isPerspectiveCamera||this.object.isOrthographicCamera?this._scale/=e:(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - dolly/zoom disabled."),this.enableZoom=!1)}_dollyIn(e){this.object.isPerspectiveCamera||this.object.isOrthographicCamera?this._scale*=e:(console.warn("WARNING: OrbitControls.js encountered an unknown camera type - dolly/zoom disabled."),this.enableZoom=!1)}_updateZoomParameters(e,t){if(!this.zoomToCursor)return;this._performCursorZoom=!0;let n=this.domElement.getBoundingClientRect(),s=e-n.left,r=t-n.top,o=n.width,a=n.height;this._mouse.x=s/o*2-1,this._mouse.y=-(r/a)*2+1,this._dollyDirection.set(this._mouse.x,this._mouse.y,1).unproject(this.object).sub(this.object.position).normalize()}_clampDistance(e){return Math.max(this.minDistance,Math.min(this.maxDistance,e))}_handleMouseDownRotate(e){this._rotateStart.set(e.clientX,e.clientY)}_handleMouseDownDolly(e){this._updateZoomParameters(e.clientX,e.clientY),this._dollyStart.set(e.clientX,e.clientY)}_handleMouseDownPan(e){this._panStart.set(e.clientX,e.clientY)}_handleMouseMoveRotate(e){this._rotateEnd.set(e.clientX,e.clientY),this._rotateDelta.subVectors(this._rotateEnd,this._rotateStart).multiplyScalar(this.rotateSpeed);let t=this.domElement;this._rotateLeft(ns*this._rotateDelta.x/t.clientHeight),this._rotateUp(ns*this._rotateDelta.y/t.clientHeight),this._rotateStart.copy(this._rotateEnd),this.update()}_handleMouseMoveDolly(e){this._dollyEnd.set(e.clientX,e.clientY),this._dollyDelta.subVectors(this._dollyEnd,this._dollyStart),this._dollyDelta.y>0?this._dollyOut(this._getZoomScale(this._dollyDelta.y)):this._dollyDelta.y<0&&this._dollyIn(this._getZoomScale(this._dollyDelta.y)),this._dollyStart.copy(this._dollyEnd),this.zoomToCursor&&(this._performCursorZoom=!0,this._dollyDirection.set(this._mouse.x,this._mouse.y,1).unproject(this.object).sub(this.object.position).normalize()),this.update()}_handleMouseMovePan(e){this._panEnd.set(e.clientX,e.clientY),this._panDelta.subVectors(this._panEnd,this._panStart).multiplyScalar(this.panSpeed),this._pan(this._panDelta.x,this._panDelta.y),this._panStart.copy(this._panEnd),this.update()}_handleMouseWheel(e){this._updateZoomParameters(e.clientX,e.clientY),e.deltaY<0?this._dollyIn(this._getZoomScale(e.deltaY)):e.deltaY>0&&this._dollyOut(this._getZoomScale(e.deltaY)),this.update()}_handleKeyDown(e){let t=!1;switch(e.code){case this.keys.UP:e.ctrlKey||e.metaKey||e.shiftKey?this.enableRotate&&this._rotateUp(ns*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(0,this.keyPanSpeed),t=!0;break;case this.keys.BOTTOM:e.ctrlKey||e.metaKey||e.shiftKey?this.enableRotate&&this._rotateUp(-ns*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(0,-this.keyPanSpeed),t=!0;break;case this.keys.LEFT:e.ctrlKey||e.metaKey||e.shiftKey?this.enableRotate&&this._rotateLeft(ns*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(this.keyPanSpeed,0),t=!0;break;case this.keys.RIGHT:e.ctrlKey||e.metaKey||e.shiftKey?this.enableRotate&&this._rotateLeft(-ns*this.keyRotateSpeed/this.domElement.clientHeight):this.enablePan&&this._pan(-this.keyPanSpeed,0),t=!0;break}t&&(e.preventDefault(),this.update())}_handleTouchStartRotate(e){if(this._pointers.length===1)this._rotateStart.set(e.pageX,e.pageY);else{let t=this._getSecondPointerPosition(e),n=.5*(e.pageX+t.x),s=.5*(e.pageY+t.y);this._rotateStart.set(n,s)}}_handleTouchStartPan(e){if(this._pointers.length===1)this._panStart.set(e.pageX,e.pageY);else{let t=this._getSecondPointerPosition(e),n=.5*(e.pageX+t.x),s=.5*(e.pageY+t.y);this._panStart.set(n,s)}}_handleTouchStartDolly(e){let t=this._getSecondPointerPosition(e),n=e.pageX-t.x,s=e.pageY-t.y,r=Math.sqrt(n*n+s*s);this._dollyStart.set(0,r)}_handleTouchStartDollyPan(e){this.enableZoom&&this._handleTouchStartDolly(e),this.enablePan&&this._handleTouchStartPan(e)}_handleTouchStartDollyRotate(e){this.enableZoom&&this._handleTouchStartDolly(e),this.enableRotate&&this._handleTouchStartRotate(e)}_handleTouchMoveRotate(e){if(this._pointers.length==1)this._rotateEnd.set(e.pageX,e.pageY);else{let n=this._getSecondPointerPosition(e),s=.5*(e.pageX+n.x),r=.5*(e.pageY+n.y);this._rotateEnd.set(s,r)}this._rotateDelta.subVectors(this._rotateEnd,this._rotateStart).multiplyScalar(this.rotateSpeed);let t=this.domElement;this._rotateLeft(ns*this._rotateDelta.x/t.clientHeight),this._rotateUp(ns*this._rotateDelta.y/t.clientHeight),this._rotateStart.copy(this._rotateEnd)}_handleTouchMovePan(e){if(this._pointers.length===1)this._panEnd.set(e.pageX,e.pageY);else{let t=this._getSecondPointerPosition(e),n=.5*(e.pageX+t.x),s=.5*(e.pageY+t.y);this._panEnd.set(n,s)}this._panDelta.subVectors(this._panEnd,this._panStart).multiplyScalar(this.panSpeed),this._pan(this._panDelta.x,this._panDelta.y),this._panStart.copy(this._panEnd)}_handleTouchMoveDolly(e){let t=this._getSecondPointerPosition(e),n=e.pageX-t.x,s=e.pageY-t.y,r=Math.sqrt(n*n+s*s);this._dollyEnd.set(0,r),this._dollyDelta.set(0,Math.pow(this._dollyEnd.y/this._dollyStart.y,this.zoomSpeed)),this._dollyOut(this._dollyDelta.y),this._dollyStart.copy(this._dollyEnd);let o=(e.pageX+t.x)*.5,a=(e.pageY+t.y)*.5;this._updateZoomParameters(o,a)}_handleTouchMoveDollyPan(e){this.enableZoom&&this._handleTouchMoveDolly(e),this.enablePan&&this._handleTouchMovePan(e)}_handleTouchMoveDollyRotate(e){this.enableZoom&&this._handleTouchMoveDolly(e),this.enableRotate&&this._handleTouchMoveRotate(e)}_addPointer(e){this._pointers.push(e.pointerId)}_removePointer(e){delete this._pointerPositions[e.pointerId];for(let t=0;t<this._pointers.length;t++)if(this._pointers[t]==e.pointerId){this._pointers.splice(t,1);return}}_isTrackingPointer(e){for(let t=0;t<this._pointers.length;t++)if(this._pointers[t]==e.pointerId)return!0;return!1}_trackPointer(e){let t=this._pointerPositions[e.pointerId];t===void 0&&(t=new Xe,this._pointerPositions[e.pointerId]=t),t.set(e.pageX,e.pageY)}_getSecondPointerPosition(e){let t=e.pointerId===this._pointers[0]?this._pointers[1]:this._pointers[0];return this._pointerPositions[t]}_customWheelEvent(e){let t=e.deltaMode,n={clientX:e.clientX,clientY:e.clientY,deltaY:e.deltaY};switch(t){case 1:n.deltaY*=16;break;case 2:n.deltaY*=100;break}return e.ctrlKey&&!this._controlActive&&(n.deltaY*=10),n}};function y5(i){this.enabled!==!1&&(this._pointers.length===0&&(this.domElement.setPointerCapture(i.pointerId),this.domElement.ownerDocument.addEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.addEventListener("pointerup",this._onPointerUp)),!this._isTrackingPointer(i)&&(this._addPointer(i),i.pointerType==="touch"?this._onTouchStart(i):this._onMouseDown(i),this._cursorStyle==="grab"&&(this.domElement.style.cursor="grabbing")))}function x5(i){this.enabled!==!1&&(i.pointerType==="touch"?this._onTouchMove(i):this._onMouseMove(i))}function b5(i){switch(this._removePointer(i),this._pointers.length){case 0:this.domElement.releasePointerCapture(i.pointerId),this.domElement.ownerDocument.removeEventListener("pointermove",this._onPointerMove),this.domElement.ownerDocument.removeEventListener("pointerup",this._onPointerUp),this.dispatchEvent(m2),this.state=Vt.NONE,this._cursorStyle==="grab"&&(this.domElement.style.cursor="grab");break;case 1:let e=this._pointers[0],t=this._pointerPositions[e];this._onTouchStart({pointerId:e,pageX:t.x,pageY:t.y});break}}function w5(i){let e;switch(i.button){case 0:e=this.mouseButtons.LEFT;break;case 1:e=this.mouseButtons.MIDDLE;break;case 2:e=this.mouseButtons.RIGHT;break;default:e=-1}switch(e){case ia.DOLLY:if(this.enableZoom===!1)return;this._handleMouseDownDolly(i),this.state=Vt.DOLLY;break;case ia.ROTATE:if(i.ctrlKey||i.metaKey||i.shiftKey){if(this.enablePan===!1)return;this._handleMouseDownPan(i),this.state=Vt.PAN}else{if(this.enableRotate===!1)return;this._handleMouseDownRotate(i),this.state=Vt.ROTATE}break;case ia.PAN:if(i.ctrlKey||i.metaKey||i.shiftKey){if(this.enableRotate===!1)return;this._handleMouseDownRotate(i),this.state=Vt.ROTATE}else{if(this.enablePan===!1)return;this._handleMouseDownPan(i),this.state=Vt.PAN}break;default:this.state=Vt.NONE}this.state!==Vt.NONE&&this.dispatchEvent(aw)}function S5(i){switch(this.state){case Vt.ROTATE:if(this.enableRotate===!1)return;this._handleMouseMoveRotate(i);break;case Vt.DOLLY:if(this.enableZoom===!1)return;this._handleMouseMoveDolly(i);break;case Vt.PAN:if(this.enablePan===!1)return;this._handleMouseMovePan(i);break}}function _5(i){this.enabled===!1||this.enableZoom===!1||this.state!==Vt.NONE||(i.preventDefault(),this.dispatchEvent(aw),this._handleMouseWheel(this._customWheelEvent(i)),this.dispatchEvent(m2))}function M5(i){this.enabled!==!1&&this._handleKeyDown(i)}function A5(i){switch(this._trackPointer(i),this._pointers.length){case 1:switch(this.touches.ONE){case sa.ROTATE:if(this.enableRotate===!1){this.state=Vt.NONE;break}this._handleTouchStartRotate(i),this.state=Vt.TOUCH_ROTATE;break;case sa.PAN:if(this.enablePan===!1){this.state=Vt.NONE;break}this._handleTouchStartPan(i),this.state=Vt.TOUCH_PAN;break;default:this.state=Vt.NONE}break;case 2:switch(this.touches.TWO){case sa.DOLLY_PAN:if(this.enableZoom===!1&&this.enablePan===!1)return;this._handleTouchStartDollyPan(i),this.state=Vt.TOUCH_DOLLY_PAN;break;case sa.DOLLY_ROTATE:if(this.enableZoom===!1&&this.enableRotate===!1)return;this._handleTouchStartDollyRotate(i),this.state=Vt.TOUCH_DOLLY_ROTATE;break;default:this.state=Vt.NONE}break;default:this.state=Vt.NONE}this.state!==Vt.NONE&&this.dispatchEvent(aw)}function T5(i){switch(this._trackPointer(i),this.state){case Vt.TOUCH_ROTATE:if(this.enableRotate===!1)return;this._handleTouchMoveRotate(i),this.update();break;case Vt.TOUCH_PAN:if(this.enablePan===!1)return;this._handleTouchMovePan(i),this.update();break;case Vt.TOUCH_DOLLY_PAN:if(this.enableZoom===!1&&this.enablePan===!1)return;this._handleTouchMoveDollyPan(i),this.update();break;case Vt.TOUCH_DOLLY_ROTATE:if(this.enableZoom===!1&&this.enableRotate===!1)return;this._handleTouchMoveDollyRotate(i),this.update();break;default:this.state=Vt.NONE}}function E5(i){this.enabled!==!1&&i.preventDefault()}function C5(i){i.key==="Control"&&(this._controlActive=!0,this.domElement.ownerDocument.addEventListener("keyup",this._interceptControlUp,{passive:!0,capture:!0}))}function R5(i){i.key==="Control"&&(this._controlActive=!1,this.domElement.ownerDocument.removeEventListener("keyup",this._interceptControlUp,{passive:!0,capture:!0}))}var Pg=class{all=new Map;put(e,t,n){let s=this.all.get(e);if(!n){s?.[0].remove(),this.all.delete(e);return}let r=s?.[0]??R("span",{class:`tag ${e.replace(/\W.*/,"")}`});r.textContent=t,s||se("labels").append(r),this.all.set(e,[r,n])}clear(e){for(let t of[...this.all.keys()])t.startsWith(e)&&this.put(t,"",void 0)}draw(e){for(let[t,n]of this.all.values()){let[s,r]=$u(e,n);t.style.transform=`translate(${s.toFixed(1)}px, ${r.toFixed(1)}px)`}}};var P5=`
 precision highp float;
 uniform mat4 modelViewMatrix;
 uniform mat4 projectionMatrix;
-/** The picture, in pixels of the page. */
 uniform vec2 size;
 in vec3 from;
 in vec3 to;
-/** Its colour; mm of a dash and of what follows it, which is open, 0 for none. */
 in vec4 look;
-/** mm from the beginning of the line. */
 out float along;
 flat out vec4 shown;
-
 void main() {
-  bool ahead = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
-  bool left = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
-  vec4 a = projectionMatrix * modelViewMatrix * vec4(from, 1.0);
-  vec4 b = projectionMatrix * modelViewMatrix * vec4(to, 1.0);
-  vec2 way = (b.xy - a.xy) * size;
-  float far = length(way);
-  vec2 side = far > 0.001 ? vec2(-way.y, way.x) / far : vec2(0.0, 1.0);
-  along = ahead ? distance(from, to) : 0.0;
-  shown = look;
-  gl_Position = ahead ? b : a;
-  gl_Position.xy += side * (left ? 1.0 : -1.0) / size;
+bool ahead = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4;
+bool left = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
+vec4 a = projectionMatrix * modelViewMatrix * vec4(from, 1.0);
+vec4 b = projectionMatrix * modelViewMatrix * vec4(to, 1.0);
+vec2 way = (b.xy - a.xy) * size;
+float far = length(way);
+vec2 side = far > 0.001 ? vec2(-way.y, way.x) / far : vec2(0.0, 1.0);
+along = ahead ? distance(from, to) : 0.0;
+shown = look;
+gl_Position = ahead ? b : a;
+gl_Position.xy += side * (left ? 1.0 : -1.0) / size;
 }
 `,k5=`
 precision highp float;
 in float along;
 flat in vec4 shown;
 out vec4 ink;
-
 void main() {
-  float dash = shown.a;
-  if (dash > 0.0 && mod(along, 1.7 * dash) > dash) discard;
-  ink = vec4(shown.rgb, 1.0);
+float dash = shown.a;
+if (dash > 0.0 && mod(along, 1.7 * dash) > dash) discard;
+ink = vec4(shown.rgb, 1.0);
 }
 `,[lw,cw]=[!0,!1].map(i=>{let e={size:{value:new Xe}};return new ts({glslVersion:ws,vertexShader:P5,fragmentShader:k5,uniforms:e,side:Pn,depthTest:i})});function Dc(i,e,{dash:t=0,over:n=!1}={}){let s=i.length/6,r=f=>Float32Array.from(i.filter((d,p)=>Math.floor(p/3)%2===f)),{r:o,g:a,b:l}=e.clone().convertLinearToSRGB(),c=Float32Array.from({length:4*s},(f,d)=>[o,a,l,t][d%4]),h=new na;h.setAttribute("from",new uo(r(0),3)),h.setAttribute("to",new uo(r(1),3)),h.setAttribute("look",new uo(c,4)),h.instanceCount=s,h.setDrawRange(0,6);let u=new pn(h,n?cw:lw);return u.frustumCulled=!1,u}function g2(i,e){for(let t of[lw,cw])t.uniforms.size.value.set(i,e)}function v2(i){return i===lw||i===cw}var kg=class{constructor(e,t){this.draw=e;this.picked=t;this.camera.up.set(0,1,0),this.wire()}draw;picked;camera=new po;canvas=se("plan");middle=[0,0];scale=1;pen=this.canvas.getContext("2d");box;get shown(){return!this.canvas.hidden&&this.canvas.clientWidth>0}get pixel(){return this.shown?1/this.scale:1/0}open(e,t=this.box===void 0){this.box=e,t&&this.fit()}fit(){let{box:e}=this,{clientWidth:t,clientHeight:n}=this.canvas;!e||t===0||(this.middle=[(e.low[0]+e.high[0])/2,(e.low[1]+e.high[1])/2],this.scale=Math.min(t/Math.max(e.high[0]-e.low[0],.001),n/Math.max(e.high[1]-e.low[1],.001))*.86,this.draw())}prepare(){let{clientWidth:e,clientHeight:t}=this.canvas,{camera:n,scale:s}=this,[r,o]=[e/2/s,t/2/s];[n.left,n.right,n.bottom,n.top]=[-r,r,-o,o];let a=(this.box?.high[2]??0)+1e3;return n.position.set(...this.middle,a),[n.near,n.far]=[.1,a-(this.box?.low[2]??0)+2e3],n.rotation.set(0,0,0),n.updateProjectionMatrix(),n.updateMatrixWorld(),[e,t]}copy(e,t,n){(this.canvas.width!==t||this.canvas.height!==n)&&([this.canvas.width,this.canvas.height]=[t,n]),this.pen.drawImage(e,0,e.height-n,t,n,0,0,t,n)}zoom(e,t=this.canvas.clientWidth/2,n=this.canvas.clientHeight/2){let{clientWidth:s,clientHeight:r}=this.canvas,[o,a]=[(t-s/2)/this.scale,(r/2-n)/this.scale];this.middle[0]+=o*(1-1/e),this.middle[1]+=a*(1-1/e),this.scale*=e,this.draw()}pan(e,t){this.middle[0]-=e/this.scale,this.middle[1]+=t/this.scale,this.draw()}wire(){let{canvas:e}=this,[t,n]=[0,0],s=new Map;e.addEventListener("pointerdown",o=>{s.set(o.pointerId,[o.clientX,o.clientY]),e.setPointerCapture(o.pointerId),[t,n]=[0,0]}),e.addEventListener("pointermove",o=>{let a=s.get(o.pointerId);if(!a)return;let[l,c]=[o.clientX-a[0],o.clientY-a[1]];if(s.set(o.pointerId,[o.clientX,o.clientY]),t+=Math.hypot(l,c),this.pan(l/s.size,c/s.size),s.size!==2)return;let[[h,u],[f,d]]=[...s.values()],p=Math.hypot(h-f,u-d);n>0&&this.zoom(p/n),n=p});let r=o=>{s.delete(o.pointerId)&&t<4&&o.type==="pointerup"&&this.picked(o.offsetX,o.offsetY)};e.addEventListener("pointerup",r),e.addEventListener("pointercancel",r),e.addEventListener("wheel",o=>{o.preventDefault(),this.zoom(1.0015**-o.deltaY,o.offsetX,o.offsetY)}),e.addEventListener("keydown",o=>{let c={ArrowLeft:()=>this.pan(40,0),ArrowRight:()=>this.pan(-40,0),ArrowUp:()=>this.pan(0,40),ArrowDown:()=>this.pan(0,-40),"+":()=>this.zoom(1.25),"-":()=>this.zoom(.8),f:()=>this.fit()}[o.key];!c||o.ctrlKey||o.metaKey||(o.preventDefault(),c())})}};var Lg=class extends $a{constructor(e){super(e)}load(e,t,n,s){let r=this,o=new Mu(this.manager);o.setPriority(this.priority),o.setCache(this.cache),o.setPath(this.path),o.setResponseType("arraybuffer"),o.setRequestHeader(this.requestHeader),o.setWithCredentials(this.withCredentials),o.load(e,function(a){try{t(r.parse(a))}catch(l){s?s(l):console.error(l),r.manager.itemError(e)}},n,s)}parse(e){function t(c){let h=new DataView(c),u=32/8*3+32/8*3*3+16/8,f=h.getUint32(80,!0);if(80+32/8+f*u===h.byteLength)return!0;let p=[115,111,108,105,100];for(let m=0;m<5;m++)if(n(p,h,m))return!1;return!0}function n(c,h,u){for(let f=0,d=c.length;f<d;f++)if(c[f]!==h.getUint8(u+f))return!1;return!0}function s(c){let h=new DataView(c),u=h.getUint32(80,!0),f,d,p,m=!1,g,v,x,w,b;for(let P=0;P<=70;P++)h.getUint32(P,!1)==1129270351&&h.getUint8(P+4)==82&&h.getUint8(P+5)==61&&(m=!0,g=new Float32Array(u*3*3),v=h.getUint8(P+6)/255,x=h.getUint8(P+7)/255,w=h.getUint8(P+8)/255,b=h.getUint8(P+9)/255);let M=84,S=50,y=new Rn,A=new Float32Array(u*3*3),I=new Float32Array(u*3*3),L=new Ze;for(let P=0;P<u;P++){let N=M+P*S,B=h.getFloat32(N,!0),k=h.getFloat32(N+4,!0),U=h.getFloat32(N+8,!0);if(m){let G=h.getUint16(N+48,!0);(G&32768)===0?(f=(G&31)/31,d=(G>>5&31)/31,p=(G>>10&31)/31):(f=v,d=x,p=w)}for(let G=1;G<=3;G++){let z=N+G*12,ie=P*3*3+(G-1)*3;A[ie]=h.getFloat32(z,!0),A[ie+1]=h.getFloat32(z+4,!0),A[ie+2]=h.getFloat32(z+8,!0),I[ie]=B,I[ie+1]=k,I[ie+2]=U,m&&(L.setRGB(f,d,p,Vi),g[ie]=L.r,g[ie+1]=L.g,g[ie+2]=L.b)}}return y.setAttribute("position",new yi(A,3)),y.setAttribute("normal",new yi(I,3)),m&&(y.setAttribute("color",new yi(g,3)),y.hasColors=!0,y.alpha=b),y}function r(c){let h=new Rn,u=/solid([\s\S]*?)endsolid/g,f=/facet([\s\S]*?)endfacet/g,d=/solid\s(.+)/,p=0,m=/[\s]+([+-]?(?:\d*)(?:\.\d*)?(?:[eE][+-]?\d+)?)/.source,g=new RegExp("vertex"+m+m+m,"g"),v=new RegExp("normal"+m+m+m,"g"),x=[],w=[],b=[],M=new Y,S,y=0,A=0,I=0;for(;(S=u.exec(c))!==null;){A=I;let L=S[0],P=(S=d.exec(L))!==null?S[1]:"";for(b.push(P);(S=f.exec(L))!==null;){let k=0,U=0,G=S[0];for(;(S=v.exec(G))!==null;)M.x=parseFloat(S[1]),M.y=parseFloat(S[2]),M.z=parseFloat(S[3]),U++;for(;(S=g.exec(G))!==null;)x.push(parseFloat(S[1]),parseFloat(S[2]),parseFloat(S[3])),w.push(M.x,M.y,M.z),k++,I++;U!==1&&console.error("THREE.STLLoader: Something isn't right with the normal of face number "+p),k!==3&&console.error("THREE.STLLoader: Something isn't right with the vertices of face number "+p),p++}let N=A,B=I-A;h.userData.groupNames=b,h.addGroup(N,B,y),y++}return h.setAttribute("position",new Sn(x,3)),h.setAttribute("normal",new Sn(w,3)),h}function o(c){return typeof c!="string"?new TextDecoder().decode(c):c}function a(c){if(typeof c=="string"){let h=new Uint8Array(c.length);for(let u=0;u<c.length;u++)h[u]=c.charCodeAt(u)&255;return h.buffer||h}else return c}let l=a(e);return t(l)?s(l):r(o(e))}};function L5(i,e){let t=Math.max(i,.001)/e,n=10**Math.floor(Math.log10(t));return n*([1,2,5,10].find(s=>s*n>=t)??10)}function x2(i,e){let[t,n,s]=i.low,[r,o]=i.high,a=L5(Math.max(r-t,o-n),12),l=m=>Math.floor(m/a-1)*a,c=m=>Math.ceil(m/a+1)*a,[h,u,f,d]=[l(t),c(r),l(n),c(o)],p=[];for(let m=h;m<=u+a/2;m+=a)p.push(m,f,s,m,d,s);for(let m=f;m<=d+a/2;m+=a)p.push(h,m,s,u,m,s);return{grid:Dc(p,e),step:a}}function hw(i){let e=new xn,t=[["#d8463c",i,0,0],["#2f9e57",0,i,0],["#2f76dc",0,0,i]];for(let[n,s,r,o]of t)e.add(Dc([0,0,0,s,r,o],new Ze(n)));return e}function b2(i){let e=Math.max(...i.outline.map(([c])=>c),.001),t=Math.max(...i.outline.map(([,c])=>c)),n=Math.max(t,i.flute??Math.max(e*6,20)),s=new xn,r=i.outline.map(([c,h])=>new Xe(c,h));s.add(w2([...r,new Xe(e,n),new Xe(0,n)],"#d8a33c",.5));let{shank:o,holder:a}=i,l=a?Math.max(a[1],n):n+20;return o!==void 0&&l>n&&s.add(y2(o/2,n,l,"#8b949c")),a&&s.add(y2(a[0]/2,a[1],a[1]+Math.max(a[0],20),"#4f5962")),s}function y2(i,e,t,n){return w2([[0,e],[i,e],[i,t],[0,t]].map(([s,r])=>new Xe(s,r)),n,.65)}function w2(i,e,t){let n=new wc({color:e,transparent:!0,opacity:t,depthWrite:!1}),s=new pn(new wu(i,40),n);return s.rotation.x=Math.PI/2,s}function uw(i,e,t){let[n,s]=[i.low,i.high],r=[];for(let o=0;o<3;o+=1)for(let a=0;a<4;a+=1){let l=[n,s].map(c=>{let h=[0,0,0];return h[o]=c[o],h[(o+1)%3]=(a&1?s:n)[(o+1)%3],h[(o+2)%3]=(a&2?s:n)[(o+2)%3],h});r.push(...l.flat())}return Dc(r,e,{dash:t})}function S2(i,e,t){let{low:n,high:s,form:r}=i,o=[0,1,2].map(f=>s[f]-n[f]),a=[0,1,2].map(f=>(s[f]+n[f])/2),l=new xn,c=new wc({color:t,transparent:!0,opacity:.75,side:Pn});if(r==="body"&&e){let f=new Lg().parse(e);return f.computeVertexNormals(),l.add(new pn(f,c)),l}let h=r==="cylinder",u=new pn(h?new bu(o[0]/2,o[0]/2,o[2],48):new Jo(...o),c);return h&&(u.rotation.x=Math.PI/2),u.position.set(...a),l.add(u),l}function _2(){let i=new xn,e=new Cu("#ffffff",1.6);return e.position.set(-1,-2,3),i.add(new Tu("#ffffff","#8a8f98",1.6),e),i}function Zu(i){i.traverse(e=>{e instanceof pn&&(e.geometry.dispose(),v2(e.material)||e.material.dispose())})}var I5={iso:[new Y(-1,-1.4,1.1),new Y(0,0,1)],top:[new Y(0,0,1),new Y(0,1,0)],front:[new Y(0,-1,0),new Y(0,0,1)],right:[new Y(1,0,0),new Y(0,0,1)]},D5=new Y(0,0,1),M2={low:[0,0,0],high:[100,100,20]},qi=9,dw=300,O5=250,[A2,fw]=[6,60],Ig=class{constructor(e,t,n){this.canvas=e;this.drawing=t;this.watcher=n;this.renderer=new cg({canvas:e,context:t.context}),this.renderer.setPixelRatio(t.smooth?Math.min(2,devicePixelRatio):2),this.scene.add(this.surroundings,this.bench,this.stock.drawn,this.stock.faces.drawn,this.face.drawn,this.paths.drawn,this.measured,this.tool,_2()),this.pickScene.add(this.stock.pick,this.stock.faces.pick,this.paths.pick),this.pickScene.background=new Ze(0),this.camera.up.set(0,0,1),this.controls=new Rg(this.camera,e),this.controls.enableDamping=!1,this.controls.zoomToCursor=!0,this.controls.addEventListener("change",()=>this.draw()),this.tool.visible=!1,this.restyle(),this.resize(),new ResizeObserver(()=>this.resize()).observe(e.parentElement),this.wire()}canvas;drawing;watcher;paths=new mg;stock=new Mg;camera=new po;labels=new Pg;plan=new kg(()=>this.draw(),(e,t)=>this.watcher.picked(this.under(e,t,this.plan.camera,this.plan.canvas),[e,t]));timed=!1;spent=0;lasted=0;step=10;frames=0;smoothed=0;renderer;scene=new bc;pickScene=new bc;target=new Wi(qi,qi);controls;tool=new xn;toolName="";surroundings=new xn;bench=new xn;measured=new xn;frame=new xn;face=new Ag(this.stock.uniforms);section;cut;look_;bodies=new Map;box=M2;path;asked=!1;late=0;calm=0;fine=!1;trials=A2;settled=!1;slow=!0;fitted=!1;unfitted=!1;setPath(e,t,n){let s=n&&N5(this.path,e,[this.cut,t]);this.path=e,s||(this.trials=A2,this.settled=!1),this.paths.set(e,this.slow,s),this.stock.open(t,this.slow),this.cut=t,this.face.show(this.section,t);let r=e&&e.pieces>0?e.box:M2;this.box=t?F5(r,t.raw):r,this.tool.visible=!!(e&&e.pieces>0),this.surround(),this.setBench(this.bodies),this.plan.open(this.box,!n||!this.fitted),(!n||!this.fitted)&&this.look("iso"),this.fitted=!!e,this.draw()}setNow(e,t,n,s,r){if(this.paths.setNow(e,t),this.tool.position.set(...n),this.tool.quaternion.setFromUnitVectors(D5,new Y(...s)),this.canvas.dataset.leans=s.map(o=>o.toFixed(4)).join(" "),!r||this.isQuick)return this.draw();clearTimeout(this.calm),this.late||=window.setTimeout(()=>this.draw(),dw)}setTool(e){let t=e?JSON.stringify([e.outline,e.flute,e.shank,e.holder]):"";t!==this.toolName&&(this.toolName=t,this.canvas.dataset.tool=t,Zu(this.tool),this.tool.clear(),e&&this.tool.add(b2(e)),this.draw())}setMarked(e,t){this.paths.setMarked(e,t),this.draw()}setColouring(e){this.paths.setColouring(e),this.draw()}setSection(e){this.section=e;let t=Tg(e);this.stock.uniforms.section.value=t,this.paths.setSection(t),this.face.show(e,this.stock.drawn.visible?this.cut:void 0),this.draw()}setStock(e){this.stock.setVisible(e),this.face.show(this.section,e?this.cut:void 0),this.draw()}setLook(e){this.look_=e;let{uniforms:t}=this.stock;t.look.value=new Lt(e.metalness,e.roughness,e.brightness,t.look.value.w),t.sun.value=JC(e),this.restyle()}setBench(e){this.bodies=e;for(let n of[...this.bench.children])Zu(n),this.bench.remove(n);this.labels.clear("zero");let{cut:t}=this;if(this.frame=new xn,t){let n=getComputedStyle(document.documentElement),s=r=>new Ze(n.getPropertyValue(r).trim());this.frame=uw(t.raw,s("--dim"),this.reach()/30),this.frame.visible=!1,this.bench.add(this.frame);for(let r of t.fixtures??[])this.bench.add(S2(r,e.get(r.name)?.slice().buffer,s("--fixture")));t.travel&&this.bench.add(uw({low:t.travel[0],high:t.travel[1]},s("--travel"),this.reach()/8));for(let{name:r,at:o}of t.zeros){let a=hw(this.step);a.position.set(...o),this.bench.add(a),this.labels.put(`zero ${r}`,r,o)}}this.draw()}setMeasured(e){Zu(this.measured),this.measured.clear(),["A","B"].forEach((s,r)=>this.labels.put(`place ${s}`,s,e[r]));let[t,n]=e;if(t&&n){let s=getComputedStyle(document.documentElement).getPropertyValue("--mark").trim(),r=Dc([...t,...n],new Ze(s),{over:!0});r.renderOrder=9,this.measured.add(r)}this.draw()}get direction(){return this.camera.position.clone().sub(this.controls.target).normalize()}get middle(){return this.controls.target.toArray()}get eye(){return{camera:this.camera,width:this.canvas.clientWidth,height:this.canvas.clientHeight}}look(e){let[t,n]=I5[e],s=e==="top"?new Y(0,-1e-4,1):t;this.camera.up.copy(e==="top"?new Y(0,0,1):n),this.controls.target.copy(this.centre()),this.camera.position.copy(this.controls.target).addScaledVector(s.clone().normalize(),this.reach()*4),this.camera.lookAt(this.controls.target),this.fit()}fit(){this.unfitted=this.canvas.clientWidth===0;let e=this.camera.position.clone().sub(this.controls.target).normalize();this.controls.target.copy(this.centre()),this.camera.position.copy(this.controls.target).addScaledVector(e,this.reach()*4),this.camera.near=.01,this.camera.far=this.reach()*8+10,this.camera.lookAt(this.controls.target),this.camera.updateMatrixWorld();let{low:t,high:n}=this.box,[s,r]=[.001,.001];for(let l of[t[0],n[0]])for(let c of[t[1],n[1]])for(let h of[t[2],n[2]]){let u=new Y(l,c,h).applyMatrix4(this.camera.matrixWorldInverse);s=Math.max(s,Math.abs(u.x)),r=Math.max(r,Math.abs(u.y))}let{right:o,top:a}=this.camera;this.camera.zoom=Math.min(o/s,a/r)*.8,this.camera.updateProjectionMatrix(),this.controls.update(),this.draw()}zoom(e){this.camera.zoom*=e,this.camera.updateProjectionMatrix(),this.draw()}restyle(){let e=getComputedStyle(document.documentElement),t=s=>new Ze().setStyle(e.getPropertyValue(s).trim()||"#888").convertLinearToSRGB();this.paths.setInks(t),this.stock.setInks(t),this.face.setInks(t);let{look_:n}=this;if(n?.colour){let s=new Ze().setStyle(n.colour).convertLinearToSRGB();this.stock.uniforms.cut.value=s,this.stock.uniforms.raw.value=s.clone().multiplyScalar(.82)}this.renderer.setClearColor(new Ze(e.getPropertyValue("--ground").trim()),1),this.surround(),this.setBench(this.bodies)}draw(e=this.drawing.smooth){clearTimeout(this.late),clearTimeout(this.calm),this.late=0,this.fine=e,!this.asked&&(this.asked=!0,requestAnimationFrame(()=>{if(this.asked=!1,this.canvas.clientWidth===0&&!this.plan.shown)return;this.canvas.toggleAttribute("data-rough",!this.drawing.smooth&&!this.fine);let t=this.paths.see(Math.min(this.plan.pixel,this.canvas.clientWidth>0?1/this.scale:1/0)),n=this.direction;this.stock.setEye(n.x,n.y,n.z);let s=performance.now();this.plan.shown&&this.renderPlan(),this.canvas.clientWidth>0&&this.render(t);let r=this.drawing.smooth||!this.fine;this.timed&&r&&(this.wait(),this.spent=performance.now()-s),this.labels.draw(this.eye),this.frames+=1,r||(this.smoothed+=1),this.watcher.drawn(this),this.fine||(this.calm=window.setTimeout(()=>this.draw(!0),O5))}))}get isQuick(){return this.drawing.smooth&&!this.slow}get ratio(){return this.drawing.smooth||this.fine?this.renderer.getPixelRatio():1}fill(e,t,n){let s=this.ratio/this.renderer.getPixelRatio();this.paths.setSize(t,n,1),g2(t,n),this.stock.uniforms.ratio.value=this.ratio,this.renderer.setViewport(0,0,t*s,n*s),this.renderer.setScissor(0,0,t*s,n*s),this.renderer.setScissorTest(s<1),this.renderer.render(this.scene,e)}wait(){let e=this.renderer.getContext();e.readPixels(0,0,1,1,e.RGBA,e.UNSIGNED_BYTE,new Uint8Array(4))}render(e){let t=performance.now();if(this.wireframe(),this.stock.prepare(1/this.scale,this.isQuick?"all":this.fine?"few":"least"),this.stock.compile(),this.fill(this.camera,this.canvas.clientWidth,this.canvas.clientHeight),!(this.trials===0||!this.path)){if(this.wait(),e)return this.draw();this.trials-=1,this.lasted=performance.now()-t,this.judge(this.lasted)?this.draw():this.trials=0}}judge(e){let t=e*4<fw;return(e>fw||t)&&(this.slow=!t),e>fw?(this.settled=!0,[this.paths.coarser(),this.stock.coarser(this.cellPixels)].some(Boolean)):!this.settled&&t&&[this.paths,this.stock].map(n=>n.finer()).some(Boolean)}get scale(){return this.camera.zoom*(this.canvas.clientHeight/200)}get cellPixels(){return this.stock.uniforms.cell.value*this.scale}wireframe(){let{uniforms:e}=this.stock,t=this.cellPixels;e.look.value.w=this.look_?.wire?2**Math.max(0,Math.ceil(Math.log2(7/Math.max(t,1e-6)))):0}renderPlan(){let e=[this.stock.drawn,this.stock.faces.drawn,this.face.drawn,this.surroundings].filter(r=>r.visible);e.forEach(r=>r.visible=!1),this.frame.visible=!0;let[t,n]=this.plan.prepare();this.fill(this.plan.camera,t,n);let{ratio:s}=this;this.plan.copy(this.canvas,Math.floor(t*s),Math.floor(n*s)),this.frame.visible=!1,e.forEach(r=>r.visible=!0)}under(e,t,n=this.camera,s=this.canvas){let{clientWidth:r,clientHeight:o}=s,a=(qi-1)/2;n.setViewOffset(r,o,e-a,t-a,qi,qi),this.paths.setPickSize(qi),this.renderer.setRenderTarget(this.target);let l=n===this.camera&&this.stock.drawn.visible;this.stock.pick.visible=l,this.stock.faces.pick.visible=l&&this.stock.faces.some,this.renderer.render(this.pickScene,n);let c=new Uint8Array(qi*qi*4);this.renderer.readRenderTargetPixels(this.target,0,0,qi,qi,c),this.renderer.setRenderTarget(null),n.clearViewOffset();let[h,u]=[1/0,void 0];for(let f=0;f<qi*qi;f+=1){let[d,p,m,g]=c.subarray(f*4,f*4+4),v=d+p*256+m*65536,x=g<200,w=Math.hypot(f%qi-a,Math.floor(f/qi)-a)+(x?qi:0);v>0&&w<h&&([h,u]=[w,x?{move:v}:{piece:v-1}])}return u&&"piece"in u?{piece:this.nearest(u.piece,[e,t],{camera:n,width:r,height:o})}:u}nearest(e,t,n){let{path:s}=this,[r,o]=this.paths.piecesOf(e);if(!s||r===o)return r;let[a,l]=[1/0,r];for(let c=r;c<=o;c+=1){let h=Math.min(...bg(s,c).map(u=>{let[f,d]=$u(n,u);return Math.hypot(f-t[0],d-t[1])}));h<a&&([a,l]=[h,c])}return l}wire(){let e=[0,0];this.canvas.addEventListener("pointerdown",t=>e=[t.offsetX,t.offsetY]),this.canvas.addEventListener("pointerup",t=>{let n=Math.hypot(t.offsetX-e[0],t.offsetY-e[1]);t.button===0&&n<4&&this.watcher.picked(this.under(t.offsetX,t.offsetY),[t.offsetX,t.offsetY])}),this.canvas.addEventListener("webglcontextrestored",()=>this.setPath(this.path,this.cut,!0))}centre(){return Xu(this.box.low).add(Xu(this.box.high)).multiplyScalar(.5)}reach(){return Math.max(5,Xu(this.box.high).distanceTo(Xu(this.box.low))/2)}surround(){for(let s of[...this.surroundings.children])Zu(s),this.surroundings.remove(s);let e=getComputedStyle(document.documentElement),{grid:t,step:n}=x2(this.box,new Ze(e.getPropertyValue("--grid").trim()));this.step=n,this.surroundings.add(t,hw(n*1.5))}resize(){let{clientWidth:e,clientHeight:t}=this.canvas,n=this.plan.shown?this.plan.canvas:void 0,s=Math.max(e,n?.clientWidth??0),r=Math.max(t,n?.clientHeight??0);s===0||r===0||(this.renderer.setSize(s,r,!1),e>0&&([this.camera.top,this.camera.bottom]=[100,-100],[this.camera.left,this.camera.right]=[-100*e/t,100*e/t],this.camera.updateProjectionMatrix(),this.unfitted&&this.fit()),this.draw())}};function N5(i,e,[t,n]){return!i||!e||String(t?.raw.cells)!==String(n?.raw.cells)?!1:i.pieces<=2*e.pieces&&e.pieces<=2*i.pieces}function F5(i,e){let t=[0,1,2],[n,s,r]=t.map(c=>Math.min(i.low[c],e.low[c])),[o,a,l]=t.map(c=>Math.max(i.high[c],e.high[c]));return{low:[n,s,r],high:[o,a,l]}}var U5=/swiftshader|llvmpipe|softpipe|software|basic render/i;function T2(i){let e=B5(),t=i.getContext("webgl2",{alpha:!1,antialias:e,powerPreference:"high-performance"});return t?{context:t,smooth:e}:void 0}function B5(){let i=document.createElement("canvas").getContext("webgl2",{failIfMajorPerformanceCaveat:!0});if(!i)return!1;let e=i.getExtension("WEBGL_debug_renderer_info"),t=String(i.getParameter(e?.UNMASKED_RENDERER_WEBGL??i.RENDERER));return i.getExtension("WEBGL_lose_context")?.loseContext(),!U5.test(t)}var z5={kind:"byKind",tool:"byTool",operation:"byOperation",feed:"byFeed",depth:"byDepth",time:"byTime"},Dg=class{constructor(e,t){this.player=e;this.picked=t;this.view=this.open();let{view:n}=this;if(n){let s=r=>{this.section=r,n.setSection(r)};this.sectionCard=new Eg(s,r=>n.direction.getComponent(r)<-.001),this.measureCard=new yg(()=>this.path?Qh(this.path,this.player.now.get()):void 0,r=>n.setMeasured(r)),this.lookCard=new vg(()=>H5(),r=>n.setLook(r),this.timing(n))}this.wire(),this.view||this.tell(X("noWebgl"),"")}player;picked;view;readout=new Sg;path;cut;heights;colouring="kind";section;sectionCard;measureCard;lookCard;shown=15;future=!0;part=!0;setPath(e,t,n){let s=this.path!==void 0;this.path=e,this.cut=t,this.heights=void 0,this.view?.setPath(e,t,s),this.view?.setStock(this.part&&t!==void 0),this.sectionCard?.setCut(t),this.measureCard?.setCut(t),this.recolour(),se("canvas").dataset.pieces=String(e?.pieces??0),this.setTold(e,n),this.setNow(e,this.player.now.get())}setPart(e){if(!e||!this.view)return;this.heights=e,this.view.stock.show(e),this.tint(),this.sectionCard?.setPart(e),this.view.draw();let{last:t}=e,n=0;for(let s=0;s<t.length;s+=1)t[s]&&(n+=1);se("canvas").dataset.cut=String(n),se("canvas").dataset.faces=String(e.faces.length/4),se("canvas").dataset.shown=String(Number(se("canvas").dataset.shown??0)+1)}setBodies(e){this.view?.setBench(e)}setTold(e,t){if(this.view){if(se("part-told").textContent=e?t.trim():"",e)return this.tell(e.pieces===0?X("noMoves"):"","");this.tell(t?X("noPath"):"",t)}}setNow(e,t,n=!1){let s=e&&this.cut?.tools[e.tool[Math.max(0,t.piece)]??0];this.readout.show(e,t,s),e&&(this.view?.setTool(s),this.view?.setNow(t.piece,t.share,Qh(e,t),AT(e,t.piece),n))}mark(e){this.view?.setMarked(e,e);let t=this.path&&Mx(this.path,e),[n,s]=t?t.map(r=>this.path?.move[r]??-1):[-1,-1];this.view?.stock.setMarked(n??-1,s??-1),se("canvas").dataset.marked=String(e)}runTo(e){let t=this.path&&Mx(this.path,e);this.player.playing.set(!1),t&&this.player.endOf(t[1])}restyle(){this.view?.restyle(),this.lookCard?.show()}draw(){this.view?.draw()}get lasts(){return this.view?.lasted??0}open(){let e=se("canvas"),t=T2(e);if(t)return new Ig(e,t,{picked:(n,s)=>{if(this.measureCard?.active)return this.measure(n,s);if(!n||!this.path)return this.mark(-1);let r="piece"in n?n.piece:this.path.move.lastIndexOf(n.move),o=this.path.line[r];if(!o)return this.mark(-1);this.mark(o),this.player.playing.set(!1),this.player.endOf(r),this.picked(o)},drawn:n=>{i2(n.camera),se("scale").textContent=this.scale(n),se("frame-time").textContent=n.timed?this.spent(n):"",se("canvas").dataset.frames=String(n.frames),se("canvas").dataset.smoothed=String(n.smoothed),se("canvas").dataset.fineness=`${n.stock.stride} ${n.paths.fineness}`,se("canvas").dataset.middle=JSON.stringify(n.middle),se("canvas").dataset.scale=String(n.scale)}})}scale(e){let t=[X("grid",{size:e.step})],{raw:n}=this.cut??{};return n&&t.push(X("cells",{across:n.cells[0],along:n.cells[1],size:Et(n.cell,3)})),e.paths.fineness>1&&t.push(X("thinned",{size:Et(e.paths.fineness/2,0)})),t.join(" · ")}spent(e){let t=Math.max(e.spent,.1);return this.perSecond?`${Et(1e3/t,0)} ${X("perSecond")}`:`${Et(t,1)} ms`}perSecond=!1;timing(e){let t=R("button",{id:"timing",class:"chip","aria-pressed":"false"},X("frameTime"));return t.addEventListener("click",()=>{e.timed=!e.timed,t.setAttribute("aria-pressed",String(e.timed)),se("frame-time").hidden=!e.timed,e.draw()}),se("frame-time").addEventListener("click",()=>{this.perSecond=!this.perSecond,se("frame-time").textContent=this.spent(e)}),t}measure(e,t){let{view:n,cut:s,heights:r,path:o}=this;if(!n||!s||!r)return;let a=Tg(this.section),l=f=>f[0]*a.x+f[1]*a.y+f[2]*a.z<=a.w+1e-6,c=e&&"piece"in e&&o?bg(o,e.piece):[],h=e2(n.eye,t,s,r,l),u=t2(n.eye,t,s,r,h,c);u&&this.measureCard?.take(u)}recolour(){this.view?.setColouring(this.colouring),YC(this.colouring,this.path,this.cut),this.tint()}tint(){let{view:e,path:t,heights:n,colouring:s,cut:r}=this;if(!e||!t||!n)return;let o=Zb(s,t,n.last);o&&e.stock.setTint(o,Zb(s,t,e.stock.faces.lasts)??o),s==="depth"?e.stock.setColouring(3,t.box.low[2],Math.max(t.box.high[2],r?.raw.high[2]??0)):e.stock.setColouring(s==="kind"?0:s==="tool"||s==="operation"?1:2),e.draw()}views(e,t){!e&&!t||(se("picture").dataset.views=e&&t?"both":t?"plan":"solid",se("plan").hidden=!t,se("view-3d").setAttribute("aria-pressed",String(e)),se("view-2d").setAttribute("aria-pressed",String(t)),this.view?.resize(),this.view?.fit(),t&&this.view?.plan.fit())}wire(){for(let n of document.querySelectorAll("[data-side]"))n.addEventListener("click",()=>this.view?.look(n.dataset.side));se("fit").addEventListener("click",()=>{this.view?.fit(),this.view?.plan.fit()});let e=n=>se(n).getAttribute("aria-pressed")==="true";se("view-3d").addEventListener("click",()=>this.views(!e("view-3d"),e("view-2d"))),se("view-2d").addEventListener("click",()=>this.views(e("view-3d"),!e("view-2d")));for(let n of document.querySelectorAll("#legend [data-kind]"))n.id=`kind-${n.dataset.kind}`,eo(n.id,s=>{let r=1<<Number(n.dataset.kind);this.shown=s?this.shown|r:this.shown&~r,this.show()});eo("part",n=>{this.part=n,this.view?.setStock(n&&this.cut!==void 0)}),eo("future",n=>{this.future=n,this.show()});let t=se("colouring");t.append(...Yb.map(n=>R("option",{value:n},X(z5[n])))),t.addEventListener("change",()=>{this.colouring=t.value,this.recolour()}),se("canvas").addEventListener("keydown",n=>this.key(n))}show(){this.view?.paths.setShown(this.shown,this.future),this.view?.draw()}key(e){let n={1:()=>this.view?.look("iso"),2:()=>this.view?.look("top"),3:()=>this.view?.look("front"),4:()=>this.view?.look("right"),f:()=>this.view?.fit()," ":()=>this.player.toggle(),ArrowRight:()=>this.player.step(1),ArrowLeft:()=>this.player.step(-1),"+":()=>this.view?.zoom(1.25),"-":()=>this.view?.zoom(.8),5:()=>se("view-2d").click(),x:()=>this.sectionCard?.toggle(0),y:()=>this.sectionCard?.toggle(1),z:()=>this.sectionCard?.toggle(2),"[":()=>this.sectionCard?.move(-1),"]":()=>this.sectionCard?.move(1),"{":()=>this.sectionCard?.move(-10),"}":()=>this.sectionCard?.move(10),m:()=>se("measure-toggle").click(),Enter:()=>this.measureCard?.active&&this.measureCard.atTool()}[e.key];!n||e.ctrlKey||e.metaKey||(e.preventDefault(),n())}tell(e,t){let n=se("picture-told");n.hidden=!e,n.querySelector("strong").textContent=e,n.querySelector("pre").textContent=t.trim()}};function H5(){return getComputedStyle(document.documentElement).getPropertyValue("--part-cut").trim()}function E2(i,e){return{stock:i.stock||(e?.stock??""),fixtures:i.fixtures.length>0?i.fixtures:e?.fixtures??[],table:i.table||String(e?.table??"")}}var Oc=["fromOption","toOption"];function Nc(i,e,t){let n=R2(i,e,t),[s,r]=P2(i,e);return{dialect:n?.dialect??s,machine:r||(n?.name??""),options:{...n?.options,...e[i]}}}function C2(i,e,t){let n=R2(i,e,t)?.options??{};return Object.keys(n).filter(s=>e[i][s]===n[s])}function R2(i,e,t){let n=i==="fromOption"?t?.machine:t?.to,[s,r]=P2(i,e);return n&&!r&&(!s||s==="auto"||s===n.dialect)?n:void 0}function P2(i,{from:e,machine:t,to:n,machineTo:s}){return i==="fromOption"?[e,t]:[n,s]}var k2=`%
 O7016 (DOME OF RADIUS 25 BY A BALL 10, LEVEL BY LEVEL)
