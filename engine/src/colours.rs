@@ -122,7 +122,7 @@ impl Coloured {
     }
 
     /// The document: the kinds, and four numbers for each stretch of the lines from `first` on (counted from 1): line, first
-    /// column, the column behind it, kind.
+    /// column, the column after it, kind.
     pub(crate) fn document(&mut self, first: usize, lines: usize) -> Value {
         let Coloured { text, dialect, places } = self;
         let nearest = (first.saturating_sub(1) / BETWEEN).min(places.len() - 1);

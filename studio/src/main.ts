@@ -194,11 +194,14 @@ session.pathTold.on((told) => {
   machine?.setTold(session.path.get(), told);
 });
 let marking = 0;
+/** Whether the part has come, and its picture alone is waited for. */
+let due = false;
 
 /** The moment in editor and charts: while a part is on its way, after its picture. To scroll takes as long as to draw. */
 function mark(): void {
   clearTimeout(marking);
   marking = 0;
+  due = false;
   const [path, now] = [session.path.get(), player.now.get()];
   charts.setTime(now.time, now.piece, now.share);
   // The end of a program is where a page begins: no line is marked then.
@@ -208,7 +211,9 @@ function mark(): void {
 
 session.part.on((part) => {
   machine?.setPart(part);
-  if (!marking) return;
+  // While a program plays the next part may come sooner: the first of them counts.
+  if (!marking || due) return;
+  due = true;
   clearTimeout(marking);
   // The browser shows a picture in about the time that it takes.
   marking = window.setTimeout(mark, 2 * (machine?.lasts ?? 0));
