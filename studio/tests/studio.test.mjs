@@ -558,3 +558,21 @@ for (const [name, options] of [["wide and light", {}], ["wide and dark", { color
     assert.deepEqual(await look(), []);
   });
 }
+
+page("the editor follows while a program plays, however soon one part comes after another", {}, async (own) => {
+  await type(own, long(20_000));
+  await own.click("#to-start");
+  await own.click("#play");
+  const lines = await own.evaluate(async () => {
+    const found = new Set();
+    const editor = document.querySelector("#editor");
+    for (let tries = 0; tries < 30; tries += 1) {
+      await new Promise((done) => setTimeout(done, 100));
+      const line = (editor.shadowRoot ?? editor).querySelector(".cm-line.now") ?? editor.querySelector(".cm-line.now");
+      if (line) found.add(line.textContent);
+    }
+    return found.size;
+  });
+  await own.click("#play");
+  assert.ok(lines >= 4, String(lines));
+});
